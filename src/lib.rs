@@ -1,0 +1,4 @@
+//! dpim
+
+pub mod error;
+pub use error::{BadInput, Error, Result};
