@@ -1,0 +1,21 @@
+//! Many runs in lockstep: one instruction steps many points.
+//!
+//! All points share the positions of the wheel, so shapes, loads and compliances are computed once
+//! ([`crate::system::CrossingTables`]); what differs between points is kept as `[state][lane]` and stepped by the
+//! machine's widest vectors. A lane never meets another: its numbers do not depend on its neighbours,
+//! on the vectors' width, or on the threads.
+
+mod batch;
+mod kernel;
+mod lanes;
+mod path;
+mod strip;
+mod suspension;
+
+pub use batch::{Batch, Divergence};
+pub use lanes::LANES;
+pub use path::WheelPath;
+pub use strip::Strip;
+
+#[cfg(test)]
+mod tests;
