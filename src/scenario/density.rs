@@ -1,0 +1,98 @@
+//! The table `[density]`: smoothing of the Dirac functions and the grid of values.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Scenario, Table};
+use crate::BadInput;
+
+/// How probability densities are computed from the responses.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DensitySpec {
+    /// Smoothing width of the normal density that replaces each Dirac function.
+    #[serde(default)]
+    pub smoothing: SmoothingSpec,
+    /// Least number of values at each time.
+    #[serde(default = "default_points_per_time")]
+    #[schemars(range(min = 16))]
+    pub points_per_time: u32,
+    /// Which values.
+    #[serde(default)]
+    pub grid: GridKind,
+    /// Names of the quantities; by default all that are in the recording.
+    #[schemars(length(min = 1), extend("uniqueItems" = true))]
+    pub quantities: Option<Vec<String>>,
+}
+
+impl Default for DensitySpec {
+    fn default() -> Self {
+        DensitySpec {
+            smoothing: SmoothingSpec::default(),
+            points_per_time: default_points_per_time(),
+            grid: GridKind::default(),
+            quantities: None,
+        }
+    }
+}
+
+/// A rule for the smoothing width.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "rule", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum SmoothingSpec {
+    /// Silverman's rule: 0.9 min(standard deviation, interquartile range / 1.34) N^(-1/5).
+    #[default]
+    Silverman,
+    /// The normal reference rule: 1.06 standard deviation N^(-1/5).
+    NormalReference,
+    /// Silverman's rule with another factor in place of 0.9, as the method's authors have it.
+    Factor(FactorSpec),
+    /// The same width at all times.
+    Fixed(FixedSpec),
+}
+
+/// The parameter of the rule `factor`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FactorSpec {
+    /// Factor in place of Silverman's 0.9.
+    #[serde(default = "default_factor")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub factor: f64,
+}
+
+/// The parameter of the rule `fixed`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FixedSpec {
+    /// Smoothing width, in the quantity's unit.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub width: f64,
+}
+
+/// The grid of values on which a density is given.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum GridKind {
+    /// A grid of its own for each time.
+    #[default]
+    Own,
+    /// One grid for all times.
+    Common,
+}
+
+fn default_points_per_time() -> u32 {
+    256
+}
+
+fn default_factor() -> f64 {
+    0.02
+}
+
+impl Table for DensitySpec {
+    const NAME: &'static str = "density";
+
+    fn check(&self, _: &Scenario) -> Result<(), BadInput> {
+        Ok(())
+    }
+}

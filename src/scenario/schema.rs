@@ -1,0 +1,97 @@
+//! The JSON Schema of a scenario, from the specs.
+
+use std::sync::LazyLock;
+
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use schemars::transform::{Transform, transform_subschemas};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::{
+    BridgeSpec, DensitySpec, IrregularitySpec, PointsSpec, ReliabilitySpec, SimulationSpec,
+    VehicleSpec,
+};
+
+/// A whole scenario: one table a stage. Every value is in SI units.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "dpim scenario")]
+pub struct ScenarioSpec {
+    /// Title, for pictures.
+    pub title: Option<String>,
+    /// Representative points of the random variables.
+    pub points: Option<PointsSpec>,
+    /// Irregularity of the road or track.
+    pub irregularity: Option<IrregularitySpec>,
+    /// The bridge.
+    pub bridge: Option<BridgeSpec>,
+    /// The vehicle that crosses the bridge.
+    pub vehicle: Option<VehicleSpec>,
+    /// Integration in time, and what is recorded.
+    pub simulation: Option<SimulationSpec>,
+    /// Probability densities of the responses.
+    pub density: Option<DensitySpec>,
+    /// First passage of limits.
+    pub reliability: Option<ReliabilitySpec>,
+}
+
+static SCHEMA: LazyLock<Value> = LazyLock::new(generate);
+
+/// The JSON Schema (2020-12) of a scenario, for editors. Descriptions are the specs' doc comments; a number's unit is
+/// in the brackets at the end of its first sentence.
+pub fn json_schema() -> Value {
+    SCHEMA.clone()
+}
+
+/// The same, shared.
+pub(super) fn shared() -> &'static Value {
+    &SCHEMA
+}
+
+fn generate() -> Value {
+    let settings = SchemaSettings::draft2020_12()
+        .with(|s| s.inline_subschemas = true)
+        .with_transform(Plain);
+    settings
+        .into_generator()
+        .into_root_schema_for::<ScenarioSpec>()
+        .to_value()
+}
+
+/// TOML has no null, an optional key is left out: takes the null out of what schemars makes of an `Option`. Joins the
+/// lines of descriptions.
+#[derive(Debug, Clone)]
+struct Plain;
+
+impl Transform for Plain {
+    fn transform(&mut self, schema: &mut schemars::Schema) {
+        transform_subschemas(self, schema);
+        let Some(keywords) = schema.as_object_mut() else {
+            return;
+        };
+        if let Some(Value::Array(types)) = keywords.get_mut("type") {
+            types.retain(|name| name != "null");
+            if let [only] = types.as_slice() {
+                keywords["type"] = only.clone();
+            }
+        }
+        if let Some(Value::Array(alternatives)) = keywords.get_mut("anyOf") {
+            alternatives.retain(|schema| schema["type"] != "null");
+            if let [Value::Object(only)] = alternatives.as_slice() {
+                let only = only.clone();
+                keywords.remove("anyOf");
+                for (keyword, value) in only {
+                    // The field's own description goes before its type's.
+                    keywords.entry(keyword).or_insert(value);
+                }
+            }
+        }
+        if keywords.get("default").is_some_and(Value::is_null) {
+            keywords.remove("default");
+        }
+        if let Some(Value::String(description)) = keywords.get_mut("description") {
+            *description = description.replace('\n', " ");
+        }
+    }
+}

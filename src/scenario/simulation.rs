@@ -1,0 +1,113 @@
+//! The table `[simulation]`: integration in time and what is recorded.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Scenario, Table};
+use crate::BadInput;
+
+/// How the equations of motion are integrated, and what of it is kept.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SimulationSpec {
+    /// Integration scheme.
+    pub integrator: IntegratorKind,
+    /// Time step of the integration (s).
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub time_step: f64,
+    /// Duration of the run (s).
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub duration: f64,
+    /// Number of time steps from one recorded time to the next.
+    #[serde(default = "default_record_every")]
+    #[schemars(range(min = 1))]
+    pub record_every: u32,
+    /// Where vehicle and bridge start.
+    #[serde(default)]
+    pub initial_state: InitialState,
+    /// Names of the quantities to record, such as `bridge/midspan/displacement`.
+    #[schemars(length(min = 1), extend("uniqueItems" = true))]
+    pub record: Vec<String>,
+    /// Acceleration of gravity (m/s2).
+    #[serde(default = "default_gravity")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub gravity: f64,
+    /// Precision of the recorded values.
+    #[serde(default)]
+    pub precision: Precision,
+    /// Compression of the recording.
+    #[serde(default)]
+    pub compression: Compression,
+}
+
+/// A scheme of integration in time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum IntegratorKind {
+    /// Newmark, beta = 0, gamma = 1/2: stable while the largest angular frequency times the step is below 2.
+    ExplicitNewmark,
+    /// Newmark, beta = 1/4, gamma = 1/2: average acceleration, stable for any step.
+    Newmark,
+    /// Zhai's explicit two-step scheme.
+    Zhai,
+    /// Exact on the free modes of the bridge.
+    Exponential,
+}
+
+/// The state at the start of the run, at rest; the bridge undeflected by the vehicle.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum InitialState {
+    /// The vehicle is in static equilibrium on a level road.
+    #[default]
+    Level,
+    /// The vehicle is in static equilibrium on the irregularity under its wheels.
+    Profile,
+}
+
+/// The precision of recorded values.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Precision {
+    /// 64 bits a value.
+    #[default]
+    F64,
+    /// 32 bits a value.
+    F32,
+}
+
+/// The compression of a recording's chunks.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Compression {
+    /// Not compressed: fastest.
+    #[default]
+    None,
+    /// Zstandard.
+    Zstd,
+    /// LZ4.
+    Lz4,
+}
+
+fn default_record_every() -> u32 {
+    1
+}
+
+fn default_gravity() -> f64 {
+    9.81
+}
+
+impl Table for SimulationSpec {
+    const NAME: &'static str = "simulation";
+
+    fn check(&self, scenario: &Scenario) -> Result<(), BadInput> {
+        if self.duration < self.time_step {
+            return Err(scenario.bad(
+                "simulation.duration",
+                format!("at least simulation.time_step = {:?} (s)", self.time_step),
+                format!("{:?}", self.duration),
+            ));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,253 @@
+use std::path::{Path, PathBuf};
+
+use super::*;
+
+mod bad;
+mod overrides;
+mod schema;
+
+fn repository() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn sets(sets: &[&str]) -> Vec<String> {
+    sets.iter().map(|set| set.to_string()).collect()
+}
+
+/// The scenario with every key that `example` has not.
+fn full() -> Scenario {
+    Scenario::from_text("folder/full.toml", FULL).unwrap()
+}
+
+fn example() -> Scenario {
+    Scenario::load(&repository().join("pipelines/quarter-car.toml"), &[]).unwrap()
+}
+
+/// A scenario that, with the example and what is in `KINDS`, has every key that there is.
+const FULL: &str = r#"
+title = "Every key"
+points = { rule = "partially-stratified", count = 987, truncate_at = 3, seed = 7 }
+
+[irregularity]
+spectrum = { kind = "table", file = "spectra/track.csv", sided = "one", unit = "cycles/m", wavenumber_column = "n", density_column = "G" }
+wavenumber = { max = 10, count = 512 }
+deterministic = { kind = "profile", file = "/measured.parquet", position_column = "x", height_column = "z", scale = 0.001 }
+start = -12.5
+length = 80
+spacing = 0.05
+
+[bridge]
+span = 40
+mass_per_length = 6067
+flexural_rigidity = 2.658069e9
+section_modulus = 0.5
+damping_ratio = 0.02
+modes = 512
+
+[[bridge.section]]
+name = "quarter"
+position = 10
+
+[[bridge.section]]
+name = "third_1-3"
+position = 40
+
+[vehicle]
+kind = "quarter-car"
+body_mass = 12000
+wheel_mass = 500
+suspension_stiffness = 280e3
+suspension_damping = 0
+tyre_stiffness = 156e3
+speed = 20
+approach = 25
+suspension_cubic_stiffness = 1e6
+suspension_quadratic_damping = 1e3
+bump_stop = { gap = 0.05, stiffness = 1e6 }
+
+[simulation]
+integrator = "exponential"
+time_step = 0.01
+duration = 0.01
+record_every = 2
+initial_state = "profile"
+record = ["bridge/quarter/stress"]
+gravity = 9.80665
+precision = "f32"
+compression = "zstd"
+
+[density]
+smoothing = { rule = "fixed", width = 1e-4 }
+points_per_time = 16
+grid = "common"
+quantities = ["bridge/quarter/stress"]
+
+[reliability]
+smoothing = { rule = "factor" }
+confidence = 0.9
+limit = [{ name = "stress", quantity = "bridge/quarter/stress", kind = "lower", threshold = -1e6 }]
+"#;
+
+/// Overrides of `FULL` to the kinds that it has not.
+const KINDS: [&str; 2] = [
+    r#"irregularity.deterministic={ kind = "sine", amplitude = 0.001, wavelength = 10, phase = 0.5 }"#,
+    r#"density.smoothing={ rule = "normal-reference" }"#,
+];
+
+#[test]
+fn the_example_is_the_papers_case() {
+    let scenario = example();
+    let all = scenario.check_all().unwrap();
+    let points = all.points.unwrap();
+    assert_eq!(
+        (points.rule, points.count, points.truncate_at),
+        (RuleKind::PartiallyStratified, 987, Some(3.0))
+    );
+    let VehicleSpec::QuarterCar(car) = all.vehicle.unwrap();
+    // 2 * 0.1 * sqrt(12000 * 280e3)
+    assert!((car.suspension_damping() - 11_593.101_396_951_55).abs() < 1e-9);
+    let bridge = all.bridge.unwrap();
+    assert_eq!(
+        (bridge.span, bridge.modes, bridge.section.len()),
+        (40.0, 5, 0)
+    );
+    assert_eq!(all.simulation.unwrap().gravity, 9.81);
+    assert_eq!(all.reliability.unwrap().limit.len(), 2);
+    let irregularity = all.irregularity.unwrap();
+    let start = scenario.irregularity_start(&irregularity).unwrap();
+    assert!(start == 0.0 && start.is_sign_positive());
+}
+
+#[test]
+fn optional_keys_are_read() {
+    let scenario = full();
+    let mut irregularity = scenario.irregularity().unwrap();
+    assert_eq!(scenario.irregularity_start(&irregularity).unwrap(), -12.5);
+    irregularity.start = None;
+    assert_eq!(scenario.irregularity_start(&irregularity).unwrap(), -25.0);
+    assert_eq!(irregularity.field, FieldKind::Gaussian);
+    let Some(SpectrumSpec::Table(table)) = irregularity.spectrum else {
+        panic!("{irregularity:?}");
+    };
+    assert_eq!(
+        (table.sided, table.unit),
+        (Sided::One, WavenumberUnit::CyclePerMetre)
+    );
+    assert_eq!(
+        scenario.resolve(&table.file),
+        Path::new("folder/spectra/track.csv")
+    );
+    let Some(DeterministicSpec::Profile(profile)) = irregularity.deterministic else {
+        panic!("a measured profile");
+    };
+    assert_eq!(
+        scenario.resolve(&profile.file),
+        Path::new("/measured.parquet")
+    );
+    assert_eq!(scenario.bridge().unwrap().section[1].name, "third_1-3");
+    let VehicleSpec::QuarterCar(car) = scenario.vehicle().unwrap();
+    assert_eq!(car.suspension_damping(), 0.0);
+    assert_eq!(
+        car.bump_stop,
+        Some(BumpStopSpec {
+            gap: 0.05,
+            stiffness: 1e6
+        })
+    );
+    assert_eq!(
+        scenario.density().unwrap().smoothing,
+        SmoothingSpec::Fixed(FixedSpec { width: 1e-4 })
+    );
+    assert_eq!(
+        scenario.reliability().unwrap().smoothing,
+        SmoothingSpec::Factor(FactorSpec { factor: 0.02 })
+    );
+    let kinds = scenario.set(&sets(&KINDS)).unwrap();
+    assert_eq!(
+        kinds.density().unwrap().smoothing,
+        SmoothingSpec::NormalReference
+    );
+    assert!(matches!(
+        kinds.irregularity().unwrap().deterministic,
+        Some(DeterministicSpec::Sine(SineSpec {
+            amplitude: 0.001,
+            wavelength: 10.0,
+            phase: 0.5
+        }))
+    ));
+}
+
+#[test]
+fn a_stage_needs_its_own_tables_only() {
+    let text = "[bridge]\nspan = -1\n\n[density]\ngrid = \"common\"\n";
+    let scenario = Scenario::from_text("s.toml", text).unwrap();
+    assert_eq!(scenario.density().unwrap().grid, GridKind::Common);
+    assert!(scenario.bridge().is_err() && scenario.check_all().is_err());
+    let nothing = Scenario::from_text("s.toml", "").unwrap();
+    assert_eq!(nothing.density().unwrap(), DensitySpec::default());
+    let start = nothing.irregularity_start(&example().irregularity().unwrap());
+    assert_eq!(start.unwrap(), 0.0);
+}
+
+#[test]
+fn a_key_has_a_place() {
+    let text = "[bridge]\nspan = 40\n\n[simulation]\nrecord = [\n  \"a\",\n  \"b\",\n]\n\n[[reliability.limit]]\nname = \"x\"\n";
+    let options = [
+        "bridge.modes=5",
+        "density.points_per_time=32",
+        "reliability.limit.1.name=y",
+    ];
+    let scenario = Scenario::from_text("s.toml", text)
+        .unwrap()
+        .set(&sets(&options))
+        .unwrap();
+    for (key, place) in [
+        ("bridge", "s.toml:1"),
+        ("bridge.span", "s.toml:2"),
+        ("bridge.damping_ratio", "s.toml:1"),
+        ("bridge.modes", "--set"),
+        ("simulation.record", "s.toml:5"),
+        ("simulation.record.1", "s.toml:7"),
+        ("reliability.limit.0", "s.toml:10"),
+        ("reliability.limit.0.name", "s.toml:11"),
+        ("reliability.limit.1.threshold", "--set"),
+        ("density.smoothing.rule", "--set"),
+        ("vehicle.speed", "s.toml"),
+    ] {
+        assert_eq!(scenario.place(key), place, "{key}");
+    }
+    let known = ["a", "bridge/midspan/displacement"];
+    assert_eq!(
+        scenario
+            .unknown_quantity("simulation.record", "b", &known[1..])
+            .to_string(),
+        "s.toml:7: simulation.record: expected a known quantity, found \"b\"; known are \"bridge/midspan/displacement\""
+    );
+    assert_eq!(
+        scenario
+            .unknown_quantity("density.quantities", "bridge/midspan/displacment", &known)
+            .to_string(),
+        "--set: density.quantities: expected a known quantity, found \"bridge/midspan/displacment\"; \
+         did you mean \"bridge/midspan/displacement\"?"
+    );
+}
+
+#[test]
+fn a_file_that_is_no_text_or_not_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("s.toml");
+    let error = Scenario::load(&path, &[]).unwrap_err();
+    assert_eq!(error.exit_code(), 1);
+    assert!(
+        error
+            .to_string()
+            .starts_with(&format!("{}: can't read: ", path.display()))
+    );
+    std::fs::write(&path, b"title = \"\xff\"").unwrap();
+    let error = Scenario::load(&path, &[]).unwrap_err();
+    assert_eq!(error.exit_code(), 2);
+    assert_eq!(
+        error.to_string(),
+        format!("{}: expected UTF-8 text, found other bytes", path.display())
+    );
+}

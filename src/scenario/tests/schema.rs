@@ -1,0 +1,158 @@
+//! The schema says everything that the specs read, and nothing else.
+
+use std::collections::BTreeSet;
+
+use serde_json::Value as Json;
+
+use super::*;
+use crate::scenario::shape::Shape;
+
+/// Every schema in the scenario's schema, with its key; an alternative of a kind has the kind's key.
+fn walk<'s>(key: &str, schema: &'s Json, found: &mut Vec<(String, &'s Json)>) {
+    found.push((key.to_owned(), schema));
+    match Shape::of(schema) {
+        Shape::Number(..) | Shape::Integer(_) | Shape::Text { .. } | Shape::Choice(_) => {}
+        Shape::List { items, .. } => walk(key, items, found),
+        Shape::Table => walk_keys(key, schema, found),
+        Shape::Tagged { alternatives, .. } => {
+            for (_, schema) in alternatives {
+                walk_keys(key, schema, found);
+            }
+        }
+    }
+}
+
+fn walk_keys<'s>(key: &str, schema: &'s Json, found: &mut Vec<(String, &'s Json)>) {
+    assert_eq!(schema["additionalProperties"], false, "{key}");
+    for (name, property) in schema["properties"].as_object().into_iter().flatten() {
+        if !property["const"].is_string() {
+            walk(&format!("{key}.{name}"), property, found);
+        }
+    }
+}
+
+/// The keys of everything in `json` but the tags of kinds; list entries have the key of the list.
+fn keys(key: &str, json: &Json, found: &mut BTreeSet<String>) {
+    match json {
+        Json::Null => {}
+        Json::Object(map) => {
+            found.insert(key.to_owned());
+            for (name, value) in map {
+                keys(&format!("{key}.{name}"), value, found);
+            }
+        }
+        Json::Array(list) => {
+            found.insert(key.to_owned());
+            list.iter().for_each(|value| keys(key, value, found));
+        }
+        Json::Bool(_) | Json::Number(_) | Json::String(_) => {
+            found.insert(key.to_owned());
+        }
+    }
+}
+
+fn is_tag(key: &str) -> bool {
+    let tags = [
+        ".vehicle.kind",
+        ".irregularity.spectrum.kind",
+        ".irregularity.deterministic.kind",
+        ".density.smoothing.rule",
+        ".reliability.smoothing.rule",
+    ];
+    tags.contains(&key)
+}
+
+#[test]
+fn the_specs_and_the_schema_have_the_same_keys() {
+    let schema = json_schema();
+    let mut all = Vec::new();
+    walk("", &schema, &mut all);
+    let in_schema: BTreeSet<String> = all.into_iter().map(|(key, _)| key).collect();
+
+    let kinds = |more: &[&str]| full().set(&sets(&[&KINDS[..], more].concat())).unwrap();
+    let mut in_specs = BTreeSet::new();
+    for scenario in [
+        example(),
+        full(),
+        kinds(&[]),
+        kinds(&[
+            r#"density.smoothing={ rule = "factor" }"#,
+            r#"reliability.smoothing={ rule = "fixed", width = 1 }"#,
+        ]),
+    ] {
+        let specs = serde_json::to_value(scenario.check_all().unwrap()).unwrap();
+        keys("", &specs, &mut in_specs);
+    }
+    in_specs.retain(|key| !is_tag(key));
+    assert_eq!(in_specs, in_schema);
+}
+
+#[test]
+fn every_key_is_described_and_every_number_has_its_unit() {
+    let schema = json_schema();
+    let mut all = Vec::new();
+    walk("", &schema, &mut all);
+    assert!(all.len() > 60);
+    let without_unit = [
+        ".bridge.damping_ratio",
+        ".density.smoothing.factor",
+        ".density.smoothing.width",
+        ".irregularity.deterministic.scale",
+        ".reliability.confidence",
+        ".reliability.limit.threshold",
+        ".reliability.smoothing.factor",
+        ".reliability.smoothing.width",
+        ".vehicle.suspension_damping_ratio",
+    ];
+    for (key, schema) in all {
+        let is_entry = matches!(key.as_str(), ".simulation.record" | ".density.quantities");
+        let is_described = schema["description"].is_string();
+        assert!(is_described || is_entry, "{key}");
+        if let Shape::Number(_, unit) = Shape::of(schema) {
+            assert_eq!(
+                unit.is_none(),
+                without_unit.contains(&key.as_str()),
+                "{key}"
+            );
+        }
+    }
+}
+
+#[test]
+fn every_choice_is_one_that_serde_knows() {
+    fn read<T: serde::de::DeserializeOwned>(json: Json) {
+        serde_json::from_value::<T>(json).unwrap();
+    }
+    let schema = json_schema();
+    let mut all = Vec::new();
+    walk("", &schema, &mut all);
+    let mut count = 0;
+    for (key, schema) in all {
+        let Shape::Choice(choices) = Shape::of(schema) else {
+            continue;
+        };
+        for choice in choices {
+            count += 1;
+            let json = Json::from(choice);
+            match key.as_str() {
+                ".points.rule" => {
+                    read::<RuleKind>(json.clone());
+                    let rule: RuleKind = serde_json::from_value(json).unwrap();
+                    assert_eq!(rule.name(), choice);
+                }
+                ".irregularity.field" => read::<FieldKind>(json),
+                ".irregularity.spectrum.form" => read::<FilterForm>(json),
+                ".irregularity.spectrum.sided" => read::<Sided>(json),
+                ".irregularity.spectrum.unit" => read::<WavenumberUnit>(json),
+                ".simulation.integrator" => read::<IntegratorKind>(json),
+                ".simulation.initial_state" => read::<InitialState>(json),
+                ".simulation.precision" => read::<Precision>(json),
+                ".simulation.compression" => read::<Compression>(json),
+                ".density.grid" => read::<GridKind>(json),
+                ".reliability.limit.kind" => read::<LimitKind>(json),
+                other => panic!("{other} is not tested here"),
+            }
+        }
+    }
+    assert_eq!(count, 27);
+}
