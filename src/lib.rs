@@ -1,4 +1,10 @@
 //! dpim
 
+pub mod ensemble;
 pub mod error;
+pub mod integrate;
+pub mod probability;
+pub mod quantity;
+pub mod scenario;
+pub mod system;
 pub use error::{BadInput, Error, Result};
