@@ -3,6 +3,7 @@
 pub mod ensemble;
 pub mod error;
 pub mod integrate;
+pub mod irregularity;
 pub mod probability;
 pub mod quantity;
 pub mod scenario;
