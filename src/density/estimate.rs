@@ -1,0 +1,343 @@
+//! Densities and moments of all quantities at all times, from a stream of blocks.
+
+use super::statistics::{LEVELS, Moments, PowerSums, Weighted};
+use super::{Bins, Curve, Nodes, Smoothing, smooth};
+use crate::Result;
+use crate::response::{Block, Responses, effective_count};
+use rayon::prelude::*;
+
+/// Up to so many points the sums run over the points themselves.
+pub const EXACT_POINTS: usize = 8192;
+/// Samples or bins that are held at a time (bytes): more cells take further passes.
+const MEMORY: usize = 192 << 20;
+/// Bins in a smoothing width.
+const BINS_PER_WIDTH: f64 = 6.0;
+
+/// On which nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Grid {
+    /// Each time has its own.
+    Own,
+    /// One for all times of a quantity.
+    Common,
+}
+
+/// What is wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    pub smoothing: Smoothing,
+    /// The least number of nodes at a time.
+    pub points_per_time: usize,
+    pub grid: Grid,
+}
+
+/// The result for one quantity and time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TimeDensity {
+    /// The quantity's index in the source.
+    pub quantity: usize,
+    /// The time's index.
+    pub time: usize,
+    pub moments: Moments,
+    /// None where the responses have no spread.
+    pub curve: Option<Curve>,
+}
+
+/// Estimates the densities of `quantities` at all times and hands them over sorted by the order of
+/// `quantities`, then time.
+pub fn estimate(
+    source: &dyn Responses,
+    quantities: &[usize],
+    options: Options,
+    mut take: impl FnMut(TimeDensity) -> Result<()>,
+) -> Result<()> {
+    let estimator = Estimator {
+        source,
+        quantities,
+        options,
+        effective_count: effective_count(source.probability()),
+    };
+    let cells = quantities.len() * source.times().len();
+    match options.grid {
+        Grid::Own => estimator.windows(cells, |estimator, first, cells| {
+            let results: Vec<_> = cells
+                .par_iter()
+                .enumerate()
+                .map(|(k, cell)| estimator.result(first + k, cell, None))
+                .collect();
+            results.into_iter().try_for_each(&mut take)
+        }),
+        Grid::Common => {
+            let nodes = estimator.common_nodes(cells)?;
+            estimator.windows(cells, |estimator, first, cells| {
+                let results: Vec<_> = cells
+                    .par_iter()
+                    .enumerate()
+                    .map(|(k, cell)| {
+                        let quantity = (first + k) / estimator.source.times().len();
+                        estimator.result(first + k, cell, nodes[quantity])
+                    })
+                    .collect();
+                results.into_iter().try_for_each(&mut take)
+            })
+        }
+    }
+}
+
+/// A quantity at a time: its sums, and its samples one by one or in bins.
+#[derive(Debug, Clone)]
+struct Cell {
+    sums: PowerSums,
+    samples: Samples,
+}
+
+#[derive(Debug, Clone)]
+enum Samples {
+    Each(Vec<f64>),
+    Bins(Bins),
+    /// No spread.
+    One,
+}
+
+struct Estimator<'a> {
+    source: &'a dyn Responses,
+    quantities: &'a [usize],
+    options: Options,
+    effective_count: f64,
+}
+
+impl Estimator<'_> {
+    /// Collects the cells, as many at a time as memory holds.
+    fn windows(
+        &self,
+        cells: usize,
+        mut work: impl FnMut(&Self, usize, &[Cell]) -> Result<()>,
+    ) -> Result<()> {
+        let points = self.source.probability().len();
+        if points <= EXACT_POINTS {
+            let window = (MEMORY / (8 * points.max(1))).clamp(1, cells.max(1));
+            for first in (0..cells).step_by(window) {
+                let count = window.min(cells - first);
+                work(self, first, &self.collect(first, count)?)?;
+            }
+            return Ok(());
+        }
+        let sums = self.sums(cells)?;
+        let mut first = 0;
+        while first < cells {
+            let mut bytes = 0;
+            let count = sums[first..]
+                .iter()
+                .take_while(|sums| {
+                    bytes += 8 * self.bins_of(sums);
+                    bytes <= MEMORY
+                })
+                .count()
+                .max(1);
+            work(self, first, &self.fill(first, &sums[first..first + count])?)?;
+            first += count;
+        }
+        Ok(())
+    }
+
+    /// All points of `count` cells from the cell `first` on.
+    fn collect(&self, first: usize, count: usize) -> Result<Vec<Cell>> {
+        let points = self.source.probability().len();
+        let mut values = vec![vec![0.0; points]; count];
+        self.scan(first, &mut values, |values, block| {
+            values[block.first_point..block.first_point + block.values.len()].copy_from_slice(block.values);
+        })?;
+        let probability = self.source.probability();
+        let cell = |values: Vec<f64>| {
+            let mut sums = PowerSums::default();
+            sums.add(&values, probability);
+            let samples = if sums.has_spread() {
+                Samples::Each(values)
+            } else {
+                Samples::One
+            };
+            Cell { sums, samples }
+        };
+        Ok(values.into_par_iter().map(cell).collect())
+    }
+
+    /// Sums of all cells.
+    fn sums(&self, cells: usize) -> Result<Vec<PowerSums>> {
+        let mut sums = vec![PowerSums::default(); cells];
+        let probability = self.source.probability();
+        self.scan(0, &mut sums, |sums, block| {
+            let points = block.first_point..block.first_point + block.values.len();
+            sums.add(block.values, &probability[points]);
+        })?;
+        Ok(sums)
+    }
+
+    /// Bins of the cells from `first` on; where the width comes out much smaller than the deviation
+    /// promised, once more with finer ones.
+    fn fill(&self, first: usize, sums: &[PowerSums]) -> Result<Vec<Cell>> {
+        let cell = |sums: &PowerSums| Cell {
+            sums: *sums,
+            samples: if sums.has_spread() {
+                Samples::Bins(Bins::new(sums.least, sums.largest, self.first_spacing(sums)))
+            } else {
+                Samples::One
+            },
+        };
+        let mut cells: Vec<Cell> = sums.iter().map(cell).collect();
+        loop {
+            let probability = self.source.probability();
+            self.scan(first, &mut cells, |cell, block| {
+                if let Samples::Bins(bins) = &mut cell.samples {
+                    let points = block.first_point..block.first_point + block.values.len();
+                    bins.add(block.values, &probability[points]);
+                }
+            })?;
+            if !self.refine(&mut cells) {
+                return Ok(cells);
+            }
+        }
+    }
+
+    /// Empties all bins where any is too coarse for its width, and makes those finer.
+    fn refine(&self, cells: &mut [Cell]) -> bool {
+        let finer: Vec<Option<f64>> = cells
+            .iter()
+            .map(|cell| match &cell.samples {
+                Samples::Bins(bins) => {
+                    let width = self.moments(cell).smoothing_width;
+                    (bins.spacing() > width / (0.6 * BINS_PER_WIDTH)).then_some(width / BINS_PER_WIDTH)
+                }
+                Samples::Each(_) | Samples::One => None,
+            })
+            .collect();
+        if finer.iter().all(Option::is_none) {
+            return false;
+        }
+        for (cell, finer) in cells.iter_mut().zip(finer) {
+            if let Samples::Bins(bins) = &mut cell.samples {
+                let spacing = finer.unwrap_or(bins.spacing());
+                *bins = Bins::new(cell.sums.least, cell.sums.largest, spacing);
+            }
+        }
+        true
+    }
+
+    /// The spacing of the first bins, from the deviation alone.
+    fn first_spacing(&self, sums: &PowerSums) -> f64 {
+        let spread = sums.spread(f64::INFINITY, self.effective_count);
+        self.options.smoothing.width(&spread) / BINS_PER_WIDTH
+    }
+
+    fn bins_of(&self, sums: &PowerSums) -> usize {
+        if sums.has_spread() {
+            Bins::count(sums.least, sums.largest, self.first_spacing(sums))
+        } else {
+            0
+        }
+    }
+
+    /// Feeds each block to its state; blocks of one cell in their order, cells in parallel.
+    fn scan<T: Send>(
+        &self,
+        first: usize,
+        states: &mut [T],
+        feed: impl Fn(&mut T, &Block<'_>) + Sync,
+    ) -> Result<()> {
+        let times = self.source.times().len();
+        let last = first + states.len();
+        let wanted: Vec<usize> = (first / times..last.div_ceil(times)).map(|k| self.quantities[k]).collect();
+        self.source.scan(&wanted, &mut |blocks| {
+            let mut of_cell: Vec<Vec<&Block<'_>>> = vec![Vec::new(); last - first];
+            for block in blocks {
+                for (k, _) in self.quantities.iter().enumerate().filter(|(_, q)| **q == block.quantity) {
+                    if let Some(list) = (k * times + block.time)
+                        .checked_sub(first)
+                        .and_then(|cell| of_cell.get_mut(cell))
+                    {
+                        list.push(block);
+                    }
+                }
+            }
+            states
+                .par_iter_mut()
+                .zip(of_cell)
+                .for_each(|(state, list)| list.iter().for_each(|block| feed(state, block)));
+            Ok(())
+        })
+    }
+
+    fn moments(&self, cell: &Cell) -> Moments {
+        let [mean, deviation, skewness, kurtosis] = cell.sums.central();
+        let mut pairs: Vec<(f64, f64)> = match &cell.samples {
+            Samples::Each(values) => {
+                let probability = self.source.probability();
+                values.iter().copied().zip(probability.iter().copied()).collect()
+            }
+            Samples::Bins(bins) => bins.nodes().collect(),
+            Samples::One => vec![(mean, 1.0)],
+        };
+        let quantiles = Weighted::sort(&mut pairs).quantiles(LEVELS);
+        let spread = cell.sums.spread(quantiles[5] - quantiles[3], self.effective_count);
+        Moments {
+            mean,
+            deviation,
+            skewness,
+            kurtosis,
+            quantiles,
+            smoothing_width: match cell.samples {
+                Samples::Each(_) | Samples::Bins(_) => self.options.smoothing.width(&spread),
+                Samples::One => 0.0,
+            },
+            effective_count: self.effective_count,
+        }
+    }
+
+    fn result(&self, index: usize, cell: &Cell, nodes: Option<Nodes>) -> TimeDensity {
+        let moments = self.moments(cell);
+        let width = moments.smoothing_width;
+        let nodes = nodes.unwrap_or_else(|| {
+            Nodes::covering(cell.sums.least, cell.sums.largest, width, self.options.points_per_time)
+        });
+        let curve = match &cell.samples {
+            Samples::Each(values) => {
+                let probability = self.source.probability().iter().copied();
+                Some(smooth(values.iter().copied().zip(probability), width, nodes))
+            }
+            Samples::Bins(bins) => Some(smooth(bins.nodes(), bins.kernel_width(width), nodes)),
+            Samples::One => None,
+        };
+        let times = self.source.times().len();
+        TimeDensity {
+            quantity: self.quantities[index / times],
+            time: index % times,
+            moments,
+            curve,
+        }
+    }
+
+    /// For each quantity the nodes that cover all of its times and resolve the smallest width.
+    fn common_nodes(&self, cells: usize) -> Result<Vec<Option<Nodes>>> {
+        let mut extents = vec![(f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY); self.quantities.len()];
+        let times = self.source.times().len();
+        self.windows(cells, |estimator, first, cells| {
+            for (k, cell) in cells.iter().enumerate() {
+                if matches!(cell.samples, Samples::One) {
+                    continue;
+                }
+                let width = estimator.moments(cell).smoothing_width;
+                let (least, largest, smallest) = &mut extents[(first + k) / times];
+                *least = least.min(cell.sums.least - 6.0 * width);
+                *largest = largest.max(cell.sums.largest + 6.0 * width);
+                *smallest = smallest.min(width);
+            }
+            Ok(())
+        })?;
+        let points = self.options.points_per_time;
+        Ok(extents
+            .into_iter()
+            .map(|(least, largest, width)| {
+                (least < largest).then(|| Nodes::covering(least, largest, width, points))
+            })
+            .collect())
+    }
+}

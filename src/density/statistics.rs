@@ -1,0 +1,161 @@
+//! Weighted moments and quantiles.
+
+use super::Spread;
+
+/// Probabilities of the quantiles that are reported.
+pub const LEVELS: [f64; 9] = [0.001, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999];
+
+/// Moments and quantiles of a response at one time, by the assigned probabilities.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Moments {
+    /// μ = Σ P g.
+    pub mean: f64,
+    /// √(Σ P (g − μ)²).
+    pub deviation: f64,
+    /// Third standardised central moment; 0 without spread.
+    pub skewness: f64,
+    /// Fourth standardised central moment, 3 for a normal; 0 without spread.
+    pub kurtosis: f64,
+    /// At [`LEVELS`].
+    pub quantiles: [f64; LEVELS.len()],
+    /// σ, the smoothing width; 0 without spread.
+    pub smoothing_width: f64,
+    /// 1 / Σ P².
+    pub effective_count: f64,
+}
+
+/// Sums of P dᵏ, d = g − shift, k = 0 ... 4, with the least and the largest value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PowerSums {
+    shift: f64,
+    sums: [f64; 5],
+    pub least: f64,
+    pub largest: f64,
+}
+
+impl Default for PowerSums {
+    fn default() -> Self {
+        PowerSums {
+            shift: f64::NAN,
+            sums: [0.0; 5],
+            least: f64::INFINITY,
+            largest: f64::NEG_INFINITY,
+        }
+    }
+}
+
+impl PowerSums {
+    /// Adds values with their probabilities. The first value ever becomes the shift, so that a mean
+    /// far from zero costs no digits.
+    pub fn add(&mut self, values: &[f64], probability: &[f64]) {
+        /// Sums that run side by side, for the vector units.
+        const WIDE: usize = 8;
+        if self.shift.is_nan() {
+            self.shift = values.first().copied().unwrap_or(f64::NAN);
+        }
+        let shift = self.shift;
+        let mut sums = [[0.0; WIDE]; 5];
+        let mut least = [f64::INFINITY; WIDE];
+        let mut largest = [f64::NEG_INFINITY; WIDE];
+        let (rows, rest) = values.as_chunks::<WIDE>();
+        let (weights, rest_weights) = probability.as_chunks::<WIDE>();
+        for (row, weight) in rows.iter().zip(weights) {
+            for j in 0..WIDE {
+                let d = row[j] - shift;
+                let (p, dd) = (weight[j], d * d);
+                sums[0][j] += p;
+                sums[1][j] += p * d;
+                sums[2][j] += p * dd;
+                sums[3][j] += p * dd * d;
+                sums[4][j] += p * dd * dd;
+                least[j] = if row[j] < least[j] { row[j] } else { least[j] };
+                largest[j] = if row[j] > largest[j] { row[j] } else { largest[j] };
+            }
+        }
+        for (value, p) in rest.iter().zip(rest_weights) {
+            let d = value - shift;
+            for (k, sum) in sums.iter_mut().enumerate() {
+                sum[0] += p * d.powi(k as i32);
+            }
+            least[0] = least[0].min(*value);
+            largest[0] = largest[0].max(*value);
+        }
+        for (total, sum) in self.sums.iter_mut().zip(&sums) {
+            *total += sum.iter().sum::<f64>();
+        }
+        self.least = least.iter().fold(self.least, |a, b| a.min(*b));
+        self.largest = largest.iter().fold(self.largest, |a, b| a.max(*b));
+    }
+
+    /// Whether the values differ by more than rounding.
+    pub fn has_spread(&self) -> bool {
+        let size = self.least.abs().max(self.largest.abs());
+        self.largest - self.least > 64.0 * f64::EPSILON * size
+    }
+
+    /// μ, √variance, skewness and kurtosis.
+    pub fn central(&self) -> [f64; 4] {
+        let [p, a, b, c, d] = self.sums;
+        let (a, b, c, d) = (a / p, b / p, c / p, d / p);
+        let mean = self.shift + a;
+        let variance = (b - a * a).max(0.0);
+        if !self.has_spread() || variance == 0.0 {
+            return [mean, 0.0, 0.0, 0.0];
+        }
+        let third = c - 3.0 * a * b + 2.0 * a.powi(3);
+        let fourth = d - 4.0 * a * c + 6.0 * a * a * b - 3.0 * a.powi(4);
+        [mean, variance.sqrt(), third / variance.powf(1.5), fourth / variance.powi(2)]
+    }
+
+    /// What a smoothing rule needs, with the quartiles' distance from elsewhere.
+    pub fn spread(&self, interquartile: f64, effective_count: f64) -> Spread {
+        let [_, deviation, _, _] = self.central();
+        let correction = (1.0 - 1.0 / effective_count).max(f64::MIN_POSITIVE);
+        Spread {
+            deviation: deviation / correction.sqrt(),
+            interquartile,
+            effective_count,
+        }
+    }
+}
+
+/// Values in ascending order with their probabilities, for quantiles.
+///
+/// Each value stands at the middle of its own share of the probability and the quantile is linear
+/// between them (for equal probabilities Hazen's definition, (i − 1/2)/N); the extremes are the
+/// quantiles outside.
+#[derive(Debug)]
+pub struct Weighted<'a> {
+    pairs: &'a mut Vec<(f64, f64)>,
+}
+
+impl<'a> Weighted<'a> {
+    /// Sorts (value, probability) pairs.
+    pub fn sort(pairs: &'a mut Vec<(f64, f64)>) -> Self {
+        pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        Weighted { pairs }
+    }
+
+    /// The quantiles at ascending levels.
+    pub fn quantiles<const N: usize>(&self, levels: [f64; N]) -> [f64; N] {
+        let total: f64 = self.pairs.iter().map(|x| x.1).sum();
+        let mut at = 0;
+        let mut below = 0.0;
+        levels.map(|level| {
+            let wanted = level * total;
+            while at < self.pairs.len() && below + 0.5 * self.pairs[at].1 < wanted {
+                below += self.pairs[at].1;
+                at += 1;
+            }
+            if at == 0 {
+                return self.pairs[0].0;
+            }
+            let (x0, p0) = self.pairs[at - 1];
+            let Some((x1, p1)) = self.pairs.get(at) else {
+                return x0;
+            };
+            let (c0, c1) = (below - 0.5 * p0, below + 0.5 * p1);
+            x0 + (x1 - x0) * ((wanted - c0) / (c1 - c0)).clamp(0.0, 1.0)
+        })
+    }
+}
