@@ -7,6 +7,7 @@ pub mod integrate;
 pub mod irregularity;
 pub mod probability;
 pub mod quantity;
+pub mod reliability;
 pub mod response;
 pub mod scenario;
 pub mod system;
