@@ -58,7 +58,9 @@ fn stepping(criterion: &mut Criterion<CpuTime>) {
     for steps in [200usize, 2000] {
         let crossing = crossing(steps - 1);
         let tables = crossing.tables(&quantities);
-        let eta: Vec<f64> = (0..steps * LANES).map(|k| 1e-3 * (k as f64).sin()).collect();
+        let eta: Vec<f64> = (0..steps * LANES)
+            .map(|k| 1e-3 * (k as f64).sin())
+            .collect();
         let mut out = vec![0.0; steps * 2 * points];
         let mut batch = Batch::new(&tables);
         group.throughput(Throughput::Elements((points * steps) as u64));

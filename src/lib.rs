@@ -1,14 +1,48 @@
-//! dpim
+//! Probability densities of bridge and vehicle responses by the direct probability integral method.
+//!
+//! # Data flow
+//!
+//! ```text
+//! scenario -> probability (points) -> irregularity (a profile a point) -> points file
+//! points file -> ensemble (system + integrate, many points in lockstep) -> recording
+//! recording -> density, reliability -> tables -> plot
+//! ```
+//!
+//! Stages meet in files only ([`files`]); the domain ([`probability`], [`irregularity`], [`system`],
+//! [`integrate`], [`ensemble`], [`density`], [`reliability`]) opens none.
+//!
+//! # Conventions
+//!
+//! SI units everywhere. Upward is positive: displacement y (m), irregularity η (m). Bending moments are
+//! positive in sagging, contact forces in compression. Vehicle coordinates are measured from the
+//! static equilibrium on a level road. Positions x (m) start at the bridge's first end; ξ = v t − approach is the wheel's.
+//! Power spectral densities are two-sided over the wavenumber Ω (rad/m), in m³/rad.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | q, θ_q, P_q | representative point, its random variables, its assigned probability |
+//! | g_q(t) | representative response |
+//! | σ(t) | smoothing width |
+//! | qᵢ, φᵢ, ωᵢ, ζ | modal coordinate, shape, circular frequency, damping ratio |
+//! | y₁, y₂, m₁, m₂, k₁, c₁, k₂ | body and wheel, their masses, suspension, tyre |
+//! | F = W + P | contact force, weight, dynamic part |
 
 pub mod density;
 pub mod ensemble;
 pub mod error;
+pub mod files;
 pub mod integrate;
+pub mod interrupt;
 pub mod irregularity;
+pub mod plot;
 pub mod probability;
 pub mod quantity;
 pub mod reliability;
 pub mod response;
 pub mod scenario;
 pub mod system;
+
+pub mod cli;
+pub mod commands;
+
 pub use error::{BadInput, Error, Result};

@@ -60,11 +60,12 @@ impl Motion {
         }
     }
 
-    fn dots(self) -> &'static str {
+    /// y with the dots of its derivative.
+    fn symbol(self) -> &'static str {
         match self {
-            Motion::Displacement => "",
-            Motion::Velocity => "\u{307}",
-            Motion::Acceleration => "\u{308}",
+            Motion::Displacement => "y",
+            Motion::Velocity => "ẏ",
+            Motion::Acceleration => "ÿ",
         }
     }
 }
@@ -112,11 +113,26 @@ impl Quantity {
         all
     }
 
+    /// The quantity of that name, at any section.
+    pub fn named(name: &str) -> Option<Quantity> {
+        let section = name
+            .strip_prefix("bridge/")
+            .and_then(|rest| rest.split_once('/'));
+        let section = section.map_or("midspan", |(section, _)| section);
+        Quantity::available([section])
+            .into_iter()
+            .find(|q| q.name() == name)
+    }
+
     /// The name in scenarios and tables; with a leading slash it is the topic.
     pub fn name(&self) -> String {
         match self {
-            Quantity::Bridge { section, response } => format!("bridge/{section}/{}", response.name()),
-            Quantity::Vehicle { part, motion } => format!("vehicle/{}/{}", part.name(), motion.name()),
+            Quantity::Bridge { section, response } => {
+                format!("bridge/{section}/{}", response.name())
+            }
+            Quantity::Vehicle { part, motion } => {
+                format!("vehicle/{}/{}", part.name(), motion.name())
+            }
             Quantity::ContactForce => "vehicle/wheel/contact_force".to_owned(),
             Quantity::Irregularity => "vehicle/wheel/irregularity".to_owned(),
         }
@@ -140,13 +156,13 @@ impl Quantity {
     pub fn symbol(&self) -> String {
         match self {
             Quantity::Bridge { response, .. } => match response {
-                BridgeResponse::Motion(motion) => format!("y{}", motion.dots()),
+                BridgeResponse::Motion(motion) => motion.symbol().to_owned(),
                 BridgeResponse::BendingMoment => "M".to_owned(),
                 BridgeResponse::Stress => "σ".to_owned(),
             },
             Quantity::Vehicle { part, motion } => match part {
-                VehiclePart::Body => format!("y{}₁", motion.dots()),
-                VehiclePart::Wheel => format!("y{}₂", motion.dots()),
+                VehiclePart::Body => format!("{}₁", motion.symbol()),
+                VehiclePart::Wheel => format!("{}₂", motion.symbol()),
             },
             Quantity::ContactForce => "F".to_owned(),
             Quantity::Irregularity => "η".to_owned(),
@@ -164,7 +180,9 @@ impl Quantity {
                     format!("bridge at {section}: bending moment, sagging positive")
                 }
                 BridgeResponse::Stress => {
-                    format!("bridge at {section}: bending stress of the lower fibre, tension positive")
+                    format!(
+                        "bridge at {section}: bending stress of the lower fibre, tension positive"
+                    )
                 }
             },
             Quantity::Vehicle { part, motion } => match motion {
@@ -173,10 +191,16 @@ impl Quantity {
                     part.name()
                 ),
                 Motion::Velocity | Motion::Acceleration => {
-                    format!("vehicle's {}: {}, upward positive", part.name(), motion.name())
+                    format!(
+                        "vehicle's {}: {}, upward positive",
+                        part.name(),
+                        motion.name()
+                    )
                 }
             },
-            Quantity::ContactForce => "contact force of wheel and deck, compression positive".to_owned(),
+            Quantity::ContactForce => {
+                "contact force of wheel and deck, compression positive".to_owned()
+            }
             Quantity::Irregularity => "irregularity under the wheel, upward positive".to_owned(),
         }
     }
@@ -191,7 +215,15 @@ mod tests {
         let all = Quantity::available(["midspan", "quarter"]);
         let names: std::collections::BTreeSet<_> = all.iter().map(Quantity::name).collect();
         assert_eq!(names.len(), all.len());
-        assert!(names.iter().all(|n| !n.contains('.') && !n.starts_with('/')));
+        assert!(
+            names
+                .iter()
+                .all(|n| !n.contains('.') && !n.starts_with('/'))
+        );
         assert!(names.contains("bridge/midspan/displacement"));
+        for quantity in all {
+            assert_eq!(Quantity::named(&quantity.name()), Some(quantity));
+        }
+        assert_eq!(Quantity::named("oscillator/displacement"), None);
     }
 }

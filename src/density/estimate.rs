@@ -145,7 +145,8 @@ impl Estimator<'_> {
         let points = self.source.probability().len();
         let mut values = vec![vec![0.0; points]; count];
         self.scan(first, &mut values, |values, block| {
-            values[block.first_point..block.first_point + block.values.len()].copy_from_slice(block.values);
+            values[block.first_point..block.first_point + block.values.len()]
+                .copy_from_slice(block.values);
         })?;
         let probability = self.source.probability();
         let cell = |values: Vec<f64>| {
@@ -178,7 +179,11 @@ impl Estimator<'_> {
         let cell = |sums: &PowerSums| Cell {
             sums: *sums,
             samples: if sums.has_spread() {
-                Samples::Bins(Bins::new(sums.least, sums.largest, self.first_spacing(sums)))
+                Samples::Bins(Bins::new(
+                    sums.least,
+                    sums.largest,
+                    self.first_spacing(sums),
+                ))
             } else {
                 Samples::One
             },
@@ -205,7 +210,8 @@ impl Estimator<'_> {
             .map(|cell| match &cell.samples {
                 Samples::Bins(bins) => {
                     let width = self.moments(cell).smoothing_width;
-                    (bins.spacing() > width / (0.6 * BINS_PER_WIDTH)).then_some(width / BINS_PER_WIDTH)
+                    (bins.spacing() > width / (0.6 * BINS_PER_WIDTH))
+                        .then_some(width / BINS_PER_WIDTH)
                 }
                 Samples::Each(_) | Samples::One => None,
             })
@@ -245,11 +251,18 @@ impl Estimator<'_> {
     ) -> Result<()> {
         let times = self.source.times().len();
         let last = first + states.len();
-        let wanted: Vec<usize> = (first / times..last.div_ceil(times)).map(|k| self.quantities[k]).collect();
+        let wanted: Vec<usize> = (first / times..last.div_ceil(times))
+            .map(|k| self.quantities[k])
+            .collect();
         self.source.scan(&wanted, &mut |blocks| {
             let mut of_cell: Vec<Vec<&Block<'_>>> = vec![Vec::new(); last - first];
             for block in blocks {
-                for (k, _) in self.quantities.iter().enumerate().filter(|(_, q)| **q == block.quantity) {
+                for (k, _) in self
+                    .quantities
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, q)| **q == block.quantity)
+                {
                     if let Some(list) = (k * times + block.time)
                         .checked_sub(first)
                         .and_then(|cell| of_cell.get_mut(cell))
@@ -271,13 +284,19 @@ impl Estimator<'_> {
         let mut pairs: Vec<(f64, f64)> = match &cell.samples {
             Samples::Each(values) => {
                 let probability = self.source.probability();
-                values.iter().copied().zip(probability.iter().copied()).collect()
+                values
+                    .iter()
+                    .copied()
+                    .zip(probability.iter().copied())
+                    .collect()
             }
             Samples::Bins(bins) => bins.nodes().collect(),
             Samples::One => vec![(mean, 1.0)],
         };
         let quantiles = Weighted::sort(&mut pairs).quantiles(LEVELS);
-        let spread = cell.sums.spread(quantiles[5] - quantiles[3], self.effective_count);
+        let spread = cell
+            .sums
+            .spread(quantiles[5] - quantiles[3], self.effective_count);
         Moments {
             mean,
             deviation,
@@ -296,12 +315,21 @@ impl Estimator<'_> {
         let moments = self.moments(cell);
         let width = moments.smoothing_width;
         let nodes = nodes.unwrap_or_else(|| {
-            Nodes::covering(cell.sums.least, cell.sums.largest, width, self.options.points_per_time)
+            Nodes::covering(
+                cell.sums.least,
+                cell.sums.largest,
+                width,
+                self.options.points_per_time,
+            )
         });
         let curve = match &cell.samples {
             Samples::Each(values) => {
                 let probability = self.source.probability().iter().copied();
-                Some(smooth(values.iter().copied().zip(probability), width, nodes))
+                Some(smooth(
+                    values.iter().copied().zip(probability),
+                    width,
+                    nodes,
+                ))
             }
             Samples::Bins(bins) => Some(smooth(bins.nodes(), bins.kernel_width(width), nodes)),
             Samples::One => None,
@@ -317,7 +345,8 @@ impl Estimator<'_> {
 
     /// For each quantity the nodes that cover all of its times and resolve the smallest width.
     fn common_nodes(&self, cells: usize) -> Result<Vec<Option<Nodes>>> {
-        let mut extents = vec![(f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY); self.quantities.len()];
+        let mut extents =
+            vec![(f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY); self.quantities.len()];
         let times = self.source.times().len();
         self.windows(cells, |estimator, first, cells| {
             for (k, cell) in cells.iter().enumerate() {

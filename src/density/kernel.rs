@@ -63,7 +63,9 @@ pub fn smooth(values: impl Iterator<Item = (f64, f64)>, width: f64, nodes: Nodes
     let mut density = vec![0.0; count];
     let mut moment = vec![0.0; count];
     for (value, weight) in values {
-        let nearest = ((value - start) / spacing).round().clamp(0.0, (count - 1) as f64) as usize;
+        let nearest = ((value - start) / spacing)
+            .round()
+            .clamp(0.0, (count - 1) as f64) as usize;
         // In units of the width: d = (y − value)/σ at the nearest node, Δ/σ.
         let d = (start + nearest as f64 * spacing - value) / width;
         let step = spacing / width;
@@ -71,7 +73,9 @@ pub fn smooth(values: impl Iterator<Item = (f64, f64)>, width: f64, nodes: Nodes
         let ratio = (-d * step).exp();
         let mut factor = peak;
         let upper = (nearest + reach).min(count - 1);
-        let up = density[nearest..=upper].iter_mut().zip(&mut moment[nearest..=upper]);
+        let up = density[nearest..=upper]
+            .iter_mut()
+            .zip(&mut moment[nearest..=upper]);
         for (m, ((p, s), shape)) in up.zip(&shape).enumerate() {
             let kernel = factor * shape;
             *p += kernel;
@@ -81,7 +85,10 @@ pub fn smooth(values: impl Iterator<Item = (f64, f64)>, width: f64, nodes: Nodes
         let inverse = ratio.recip();
         factor = peak * inverse;
         let lower = nearest.saturating_sub(reach);
-        let down = density[lower..nearest].iter_mut().zip(&mut moment[lower..nearest]).rev();
+        let down = density[lower..nearest]
+            .iter_mut()
+            .zip(&mut moment[lower..nearest])
+            .rev();
         for (m, ((p, s), shape)) in down.zip(&shape[1..]).enumerate() {
             let kernel = factor * shape;
             *p += kernel;

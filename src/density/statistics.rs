@@ -69,7 +69,11 @@ impl PowerSums {
                 sums[3][j] += p * dd * d;
                 sums[4][j] += p * dd * dd;
                 least[j] = if row[j] < least[j] { row[j] } else { least[j] };
-                largest[j] = if row[j] > largest[j] { row[j] } else { largest[j] };
+                largest[j] = if row[j] > largest[j] {
+                    row[j]
+                } else {
+                    largest[j]
+                };
             }
         }
         for (value, p) in rest.iter().zip(rest_weights) {
@@ -104,7 +108,12 @@ impl PowerSums {
         }
         let third = c - 3.0 * a * b + 2.0 * a.powi(3);
         let fourth = d - 4.0 * a * c + 6.0 * a * a * b - 3.0 * a.powi(4);
-        [mean, variance.sqrt(), third / variance.powf(1.5), fourth / variance.powi(2)]
+        [
+            mean,
+            variance.sqrt(),
+            third / variance.powf(1.5),
+            fourth / variance.powi(2),
+        ]
     }
 
     /// What a smoothing rule needs, with the quartiles' distance from elsewhere.

@@ -21,13 +21,22 @@ impl Responses for Held {
         &self.probability
     }
 
-    fn scan(&self, quantities: &[usize], visit: &mut dyn FnMut(&[Block<'_>]) -> Result<()>) -> Result<()> {
+    fn scan(
+        &self,
+        quantities: &[usize],
+        visit: &mut dyn FnMut(&[Block<'_>]) -> Result<()>,
+    ) -> Result<()> {
         for first_point in (0..self.probability.len()).step_by(1000) {
             for time in 0..self.times.len() {
                 for quantity in quantities {
                     let all = &self.values[*quantity][time];
                     let values = &all[first_point..(first_point + 1000).min(all.len())];
-                    visit(&[Block { quantity: *quantity, time, first_point, values }])?;
+                    visit(&[Block {
+                        quantity: *quantity,
+                        time,
+                        first_point,
+                        values,
+                    }])?;
                 }
             }
         }
@@ -80,7 +89,10 @@ fn direct(held: &Held, width: f64, y: f64) -> (f64, f64) {
     let terms = held.values[0][1].iter().zip(&held.probability);
     terms.fold((0.0, 0.0), |(p, c), (x, w)| {
         let z = (y - x) / width;
-        (p + w * probability::density(z) / width, c + w * probability::cumulative(z))
+        (
+            p + w * probability::density(z) / width,
+            c + w * probability::cumulative(z),
+        )
     })
 }
 
@@ -102,11 +114,25 @@ fn the_fast_sum_is_the_direct_sum() {
         let peak = curve.density.iter().copied().fold(0.0, f64::max);
         for j in (0..curve.density.len()).step_by(11) {
             let (p, c) = direct(&held, width, curve.nodes.value(j));
-            assert!((curve.density[j] - p).abs() < density_error * peak, "{count} {smoothing:?} {j}: {} {p}", curve.density[j]);
-            assert!((curve.cumulative[j] - c).abs() < 2e-5, "{count} {smoothing:?} {j}: {} {c}", curve.cumulative[j]);
+            assert!(
+                (curve.density[j] - p).abs() < density_error * peak,
+                "{count} {smoothing:?} {j}: {} {p}",
+                curve.density[j]
+            );
+            assert!(
+                (curve.cumulative[j] - c).abs() < 2e-5,
+                "{count} {smoothing:?} {j}: {} {c}",
+                curve.cumulative[j]
+            );
         }
-        let trapezium: f64 = curve.density.windows(2).map(|p| 0.5 * (p[0] + p[1]) * curve.nodes.spacing).sum();
-        assert!((trapezium - 1.0).abs() < 1e-6 && (curve.cumulative.last().unwrap() - 1.0).abs() < 1e-6);
+        let trapezium: f64 = curve
+            .density
+            .windows(2)
+            .map(|p| 0.5 * (p[0] + p[1]) * curve.nodes.spacing)
+            .sum();
+        assert!(
+            (trapezium - 1.0).abs() < 1e-6 && (curve.cumulative.last().unwrap() - 1.0).abs() < 1e-6
+        );
     }
 }
 
@@ -121,7 +147,10 @@ fn moments_and_quantiles_of_a_normal() {
         assert_eq!(moments.effective_count, effective_count(&held.probability));
         for (level, quantile) in LEVELS.iter().zip(moments.quantiles).skip(1).take(7) {
             let exact = 5.0 + 1e-3 * probability::quantile(*level);
-            assert!((quantile - exact).abs() < 3e-6, "{count} {level}: {quantile} {exact}");
+            assert!(
+                (quantile - exact).abs() < 3e-6,
+                "{count} {level}: {quantile} {exact}"
+            );
         }
     }
 }
@@ -136,8 +165,14 @@ fn equal_weights_have_hazens_quantiles() {
 #[test]
 fn a_common_grid_has_the_same_nodes_at_all_times() {
     let mut held = normal(984, 1e-3);
-    held.values[0][0] = held.values[0][1].iter().map(|x| 5.01 + 3.0 * (x - 5.0)).collect();
-    let common = Options { grid: Grid::Common, ..options(Smoothing::Silverman) };
+    held.values[0][0] = held.values[0][1]
+        .iter()
+        .map(|x| 5.01 + 3.0 * (x - 5.0))
+        .collect();
+    let common = Options {
+        grid: Grid::Common,
+        ..options(Smoothing::Silverman)
+    };
     let results = run(&held, common);
     let curves: Vec<_> = results.iter().map(|r| r.curve.as_ref().unwrap()).collect();
     assert_eq!(curves[0].nodes, curves[1].nodes);
@@ -149,7 +184,11 @@ fn a_common_grid_has_the_same_nodes_at_all_times() {
 
 #[test]
 fn rules_of_the_width() {
-    let spread = Spread { deviation: 2.0, interquartile: 1.34, effective_count: 32.0 };
+    let spread = Spread {
+        deviation: 2.0,
+        interquartile: 1.34,
+        effective_count: 32.0,
+    };
     assert!((Smoothing::Silverman.width(&spread) - 0.45).abs() < 1e-15);
     assert!((Smoothing::NormalReference.width(&spread) - 1.06).abs() < 1e-15);
     assert!((Smoothing::Factor(0.02).width(&spread) - 0.01).abs() < 1e-15);

@@ -84,7 +84,10 @@ impl<'a> Batch<'a> {
         let total = self.tables.crossing.steps + 1;
         for first in (0..total).step_by(CHUNK) {
             let steps = first..(first + CHUNK).min(total);
-            irregularity(steps.clone(), &mut self.irregularity.values_mut()[..steps.len() * LANES]);
+            irregularity(
+                steps.clone(),
+                &mut self.irregularity.values_mut()[..steps.len() * LANES],
+            );
             if first == 0 {
                 self.start();
             }
@@ -135,8 +138,12 @@ impl<'a> Batch<'a> {
         let vehicle = self.state.vehicle.values_mut();
         vehicle.fill(0.0);
         for lane in 0..LANES {
-            let heave = tables.heave.initial(height[lane], 0.0, dynamic[lane] / car.mass());
-            let travel = tables.travel.initial(0.0, 0.0, -dynamic[lane] / car.wheel_mass);
+            let heave = tables
+                .heave
+                .initial(height[lane], 0.0, dynamic[lane] / car.mass());
+            let travel = tables
+                .travel
+                .initial(0.0, 0.0, -dynamic[lane] / car.wheel_mass);
             for (k, value) in heave.into_iter().chain(travel).enumerate() {
                 vehicle[k * LANES + lane] = value;
             }
@@ -146,8 +153,12 @@ impl<'a> Batch<'a> {
     fn unbounded(&self) -> Option<usize> {
         let vehicle = self.state.vehicle.values();
         (0..LANES).find(|lane| {
-            let watched = [self.state.deck.values()[*lane], vehicle[*lane], vehicle[3 * LANES + lane]];
-            watched.iter().any(|x| !(x.abs() < BOUND))
+            let watched = [
+                self.state.deck.values()[*lane],
+                vehicle[*lane],
+                vehicle[3 * LANES + lane],
+            ];
+            watched.iter().any(|x| x.is_nan() || x.abs() >= BOUND)
         })
     }
 
@@ -161,7 +172,10 @@ impl<'a> Batch<'a> {
                 return Divergence { lane, step };
             }
         }
-        Divergence { lane: 0, step: last }
+        Divergence {
+            lane: 0,
+            step: last,
+        }
     }
 }
 
@@ -177,7 +191,10 @@ impl State {
 
     fn copy_from(&mut self, other: &State) {
         let from = other.modal.iter().chain([&other.deck, &other.vehicle]);
-        let to = self.modal.iter_mut().chain([&mut self.deck, &mut self.vehicle]);
+        let to = self
+            .modal
+            .iter_mut()
+            .chain([&mut self.deck, &mut self.vehicle]);
         for (to, from) in to.zip(from) {
             to.values_mut().copy_from_slice(from.values());
         }

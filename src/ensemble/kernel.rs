@@ -1,7 +1,7 @@
 //! The coupled step, in vectors of lanes. See [`crate::system::Crossing`] for its equations.
 
-use super::lanes::{Dense2, Dense3, LANES, Row, Step, TwoStep, TwoStepVelocity, each};
 use super::batch::State;
+use super::lanes::{Dense2, Dense3, LANES, Row, Step, TwoStep, TwoStepVelocity, each};
 use super::strip::Strip;
 use super::suspension::{self, Compliance};
 use crate::integrate::{Pattern, Propagator};
@@ -89,7 +89,10 @@ impl Kernel<'_, '_> {
     }
 
     #[inline(always)]
-    fn run<S: Simd, const W: usize, M: Step, H: Step, V: Step, const NONLINEAR: bool>(self, simd: S) {
+    fn run<S: Simd, const W: usize, M: Step, H: Step, V: Step, const NONLINEAR: bool>(
+        self,
+        simd: S,
+    ) {
         let tables = self.tables;
         let every = tables.crossing.record_every;
         let mut vehicle = Vehicle::<S, W>::load(simd, self.state);
@@ -99,15 +102,29 @@ impl Kernel<'_, '_> {
         let mut next_recorded = record * every;
         {
             let [first, second, third] = &mut self.state.modal;
-            let mut now = S::as_mut_simd_f64s(first.values_mut()).0.as_chunks_mut::<W>().0;
-            let mut before = S::as_mut_simd_f64s(second.values_mut()).0.as_chunks_mut::<W>().0;
-            let rate = S::as_mut_simd_f64s(third.values_mut()).0.as_chunks_mut::<W>().0;
+            let mut now = S::as_mut_simd_f64s(first.values_mut())
+                .0
+                .as_chunks_mut::<W>()
+                .0;
+            let mut before = S::as_mut_simd_f64s(second.values_mut())
+                .0
+                .as_chunks_mut::<W>()
+                .0;
+            let rate = S::as_mut_simd_f64s(third.values_mut())
+                .0
+                .as_chunks_mut::<W>()
+                .0;
             for (n, eta) in self.steps.zip(self.irregularity.chunks_exact(LANES)) {
                 let eta = load(simd, eta);
                 let forces = contact::<S, W, NONLINEAR>(simd, tables, n, &deck, &eta, &vehicle);
                 if n == next_recorded {
                     let planes = [&*now, &*before, &*rate];
-                    let sample = Sample { planes, vehicle: &vehicle, forces: &forces, eta: &eta };
+                    let sample = Sample {
+                        planes,
+                        vehicle: &vehicle,
+                        forces: &forces,
+                        eta: &eta,
+                    };
                     sample.write::<NONLINEAR>(simd, tables, n, record, self.strip);
                     record += 1;
                     next_recorded += every;
@@ -115,7 +132,8 @@ impl Kernel<'_, '_> {
                 if n == tables.crossing.steps {
                     break;
                 }
-                deck = advance_modes::<S, W, M>(simd, tables, n, [now, before, rate], &forces.contact);
+                deck =
+                    advance_modes::<S, W, M>(simd, tables, n, [now, before, rate], &forces.contact);
                 if M::SWAPS {
                     std::mem::swap(&mut now, &mut before);
                 }
@@ -157,7 +175,8 @@ fn advance_modes<S: Simd, const W: usize, M: Step>(
     let [now, before, rate] = planes;
     let mut deck = [simd.splat_f64s(0.0); W];
     let states = now.iter_mut().zip(before).zip(rate);
-    for (((map, phi), load), ((x0, x1), x2)) in tables.modal.iter().zip(shape).zip(load).zip(states) {
+    for (((map, phi), load), ((x0, x1), x2)) in tables.modal.iter().zip(shape).zip(load).zip(states)
+    {
         let phi = simd.splat_f64s(*phi);
         for j in 0..W {
             let third = if M::STATES == 3 { x2[j] } else { x0[j] };
@@ -243,7 +262,13 @@ fn nonlinear<S: Simd, const W: usize>(
 
 /// coefficients·states + factor row; coefficients that are zero cost nothing.
 #[inline(always)]
-fn combine<S: Simd, const W: usize>(simd: S, coefficients: [f64; 3], states: &[Row<S, W>; 3], factor: f64, row: &Row<S, W>) -> Row<S, W> {
+fn combine<S: Simd, const W: usize>(
+    simd: S,
+    coefficients: [f64; 3],
+    states: &[Row<S, W>; 3],
+    factor: f64,
+    row: &Row<S, W>,
+) -> Row<S, W> {
     let mut sum = each!(simd, j => simd.mul_f64s(simd.splat_f64s(factor), row[j]));
     for (c, x) in coefficients.iter().zip(states) {
         if *c != 0.0 {
@@ -274,7 +299,11 @@ impl<S: Simd, const W: usize> Vehicle<S, W> {
 
     #[inline(always)]
     fn store(&self, simd: S, state: &mut State) {
-        let rows = self.heave.iter().chain(&self.travel).chain([&self.suspension]);
+        let rows = self
+            .heave
+            .iter()
+            .chain(&self.travel)
+            .chain([&self.suspension]);
         for (k, row) in rows.enumerate() {
             store(&mut state.vehicle.values_mut()[k * LANES..], row, simd);
         }
@@ -288,23 +317,42 @@ impl<S: Simd, const W: usize> Vehicle<S, W> {
         forces: &Forces<S, W>,
     ) {
         let car = &tables.crossing.car;
-        oscillate::<S, W, H>(simd, &tables.heave, &mut self.heave, 1.0 / car.mass(), &forces.dynamic);
+        oscillate::<S, W, H>(
+            simd,
+            &tables.heave,
+            &mut self.heave,
+            1.0 / car.mass(),
+            &forces.dynamic,
+        );
         let squeeze = -1.0 / car.wheel_mass;
         if NONLINEAR {
             // −P/m₂ − N/μ = −(P + N m₂/μ)/m₂.
             let ratio = simd.splat_f64s(car.wheel_mass / car.reduced_mass());
-            let force = each!(simd, j => simd.mul_add_f64s(ratio, forces.suspension[j], forces.dynamic[j]));
+            let force =
+                each!(simd, j => simd.mul_add_f64s(ratio, forces.suspension[j], forces.dynamic[j]));
             oscillate::<S, W, V>(simd, &tables.travel, &mut self.travel, squeeze, &force);
             self.suspension = forces.suspension;
         } else {
-            oscillate::<S, W, V>(simd, &tables.travel, &mut self.travel, squeeze, &forces.dynamic);
+            oscillate::<S, W, V>(
+                simd,
+                &tables.travel,
+                &mut self.travel,
+                squeeze,
+                &forces.dynamic,
+            );
         }
     }
 }
 
 /// One oscillator in physical coordinates, one step on under `factor * force`.
 #[inline(always)]
-fn oscillate<S: Simd, const W: usize, V: Step>(simd: S, map: &Propagator, x: &mut [Row<S, W>; 3], factor: f64, force: &Row<S, W>) {
+fn oscillate<S: Simd, const W: usize, V: Step>(
+    simd: S,
+    map: &Propagator,
+    x: &mut [Row<S, W>; 3],
+    factor: f64,
+    force: &Row<S, W>,
+) {
     let factor = factor * V::unit(map);
     for j in 0..W {
         let free = V::free(simd, map, [x[0][j], x[1][j], x[2][j]]);
@@ -338,8 +386,19 @@ impl<S: Simd, const W: usize> Sample<'_, S, W> {
         for (k, map) in tables.outputs.iter().enumerate() {
             let row = match map {
                 OutputMap::Bridge { terms, feed } => self.bridge(simd, terms, feed[n]),
-                OutputMap::Vehicle { heave, travel, p, n } => {
-                    let mut row = combine(simd, *travel, &self.vehicle.travel, *p, &self.forces.dynamic);
+                OutputMap::Vehicle {
+                    heave,
+                    travel,
+                    p,
+                    n,
+                } => {
+                    let mut row = combine(
+                        simd,
+                        *travel,
+                        &self.vehicle.travel,
+                        *p,
+                        &self.forces.dynamic,
+                    );
                     if NONLINEAR {
                         let n = simd.splat_f64s(*n);
                         let force = &self.forces.suspension;

@@ -113,8 +113,18 @@ impl<const UNDAMPED: bool> Step for TwoStep<UNDAMPED> {
     }
 
     #[inline(always)]
-    fn push<S: Simd>(simd: S, _: &Propagator, factor: f64, value: S::f64s, x: [S::f64s; 3]) -> [S::f64s; 3] {
-        [simd.mul_add_f64s(simd.splat_f64s(factor), value, x[0]), x[1], x[2]]
+    fn push<S: Simd>(
+        simd: S,
+        _: &Propagator,
+        factor: f64,
+        value: S::f64s,
+        x: [S::f64s; 3],
+    ) -> [S::f64s; 3] {
+        [
+            simd.mul_add_f64s(simd.splat_f64s(factor), value, x[0]),
+            x[1],
+            x[2],
+        ]
     }
 }
 
@@ -136,7 +146,13 @@ impl Step for TwoStepVelocity {
     }
 
     #[inline(always)]
-    fn push<S: Simd>(simd: S, map: &Propagator, factor: f64, value: S::f64s, x: [S::f64s; 3]) -> [S::f64s; 3] {
+    fn push<S: Simd>(
+        simd: S,
+        map: &Propagator,
+        factor: f64,
+        value: S::f64s,
+        x: [S::f64s; 3],
+    ) -> [S::f64s; 3] {
         let force = simd.mul_f64s(simd.splat_f64s(factor), value);
         [
             simd.mul_add_f64s(simd.splat_f64s(map.push[0]), force, x[0]),

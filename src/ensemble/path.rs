@@ -34,7 +34,9 @@ impl WheelPath {
             .map(|x| {
                 let place = (x - start) / spacing;
                 let node = place.round();
-                if (place - node).abs() <= TOLERANCE * count as f64 && (0.0..count as f64).contains(&node) {
+                if (place - node).abs() <= TOLERANCE * count as f64
+                    && (0.0..count as f64).contains(&node)
+                {
                     return Some(Stencil {
                         first: node as usize,
                         weights: [1.0, 0.0, 0.0, 0.0],
@@ -82,7 +84,12 @@ impl WheelPath {
 /// Lagrange's weights of the nodes 0, 1, 2, 3 at s.
 fn cubic(s: f64) -> [f64; 4] {
     let (a, b, c, d) = (s, s - 1.0, s - 2.0, s - 3.0);
-    [b * c * d / -6.0, a * c * d / 2.0, a * b * d / -2.0, a * b * c / 6.0]
+    [
+        b * c * d / -6.0,
+        a * c * d / 2.0,
+        a * b * d / -2.0,
+        a * b * c / 6.0,
+    ]
 }
 
 #[cfg(test)]

@@ -58,10 +58,8 @@ pub(super) fn solve<S: Simd, const W: usize>(
             let correction = simd.div_f64s(simd.sub_f64s(law, force[j]), simd.sub_f64s(one, slope));
             let next = simd.add_f64s(force[j], correction);
             let size = simd.add_f64s(simd.abs_f64s(next), floor);
-            let small = simd.less_than_or_equal_f64s(
-                simd.abs_f64s(correction),
-                simd.mul_f64s(tolerance, size),
-            );
+            let small = simd
+                .less_than_or_equal_f64s(simd.abs_f64s(correction), simd.mul_f64s(tolerance, size));
             let done = simd.greater_than_f64s(settled[j], simd.splat_f64s(0.5));
             force[j] = simd.select_f64s(done, force[j], next);
             settled[j] = simd.select_f64s(small, one, settled[j]);

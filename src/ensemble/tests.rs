@@ -25,7 +25,11 @@ fn body(motion: Motion) -> Quantity {
 }
 
 /// `[quantity][record][lane]`, with the irregularity η(x) times lane/(LANES − 1).
-fn run(crossing: &Crossing, quantities: &[Quantity], eta: impl Fn(f64) -> f64) -> Vec<Vec<[f64; LANES]>> {
+fn run(
+    crossing: &Crossing,
+    quantities: &[Quantity],
+    eta: impl Fn(f64) -> f64,
+) -> Vec<Vec<[f64; LANES]>> {
     let tables = crossing.tables(quantities);
     let positions = crossing.positions();
     let records = crossing.times().len();
@@ -45,18 +49,30 @@ fn run(crossing: &Crossing, quantities: &[Quantity], eta: impl Fn(f64) -> f64) -
         .unwrap();
     let row = |k: usize| std::array::from_fn(|lane| block[k * LANES + lane]);
     (0..quantities.len())
-        .map(|q| (0..records).map(|r| row(r * quantities.len() + q)).collect())
+        .map(|q| {
+            (0..records)
+                .map(|r| row(r * quantities.len() + q))
+                .collect()
+        })
         .collect()
 }
 
 /// Data sheet 2.3, five modes, DOP853.
-const DEFLECTION: [(f64, f64); 3] = [(0.7, -55.166318e-3), (1.1, -94.491213e-3), (1.5, -54.104794e-3)];
+const DEFLECTION: [(f64, f64); 3] = [
+    (0.7, -55.166318e-3),
+    (1.1, -94.491213e-3),
+    (1.5, -54.104794e-3),
+];
 const ACCELERATION: [(f64, f64); 3] = [(0.8, -0.38425957), (1.1, -0.15807291), (1.4, 0.62728726)];
 
 /// Largest relative error at the reference instants of deflection and body acceleration.
 fn smooth_errors(integrator: Integrator, step: f64) -> (f64, f64) {
     let crossing = paper_case(integrator, step);
-    let out = run(&crossing, &[deflection(), body(Motion::Acceleration)], |_| 0.0);
+    let out = run(
+        &crossing,
+        &[deflection(), body(Motion::Acceleration)],
+        |_| 0.0,
+    );
     let worst = |rows: &[[f64; LANES]], wanted: &[(f64, f64)]| {
         wanted
             .iter()
@@ -78,11 +94,16 @@ fn every_scheme_meets_the_smooth_deck_at_a_tenth_of_a_millisecond() {
 #[test]
 fn the_coupled_schemes_are_of_second_order() {
     for integrator in Integrator::ALL {
-        let errors: Vec<_> = [0.01, 0.005, 0.001].map(|h| smooth_errors(integrator, h)).into();
+        let errors: Vec<_> = [0.01, 0.005, 0.001]
+            .map(|h| smooth_errors(integrator, h))
+            .into();
         for (h, (y, a)) in [10, 5, 1].iter().zip(&errors) {
             println!("{:<17} {h} ms: {y:.1e} {a:.1e}", integrator.name());
         }
-        assert!(errors[2].0 < errors[0].0 / 50.0 && errors[2].1 < errors[0].1 / 50.0, "{integrator:?} {errors:?}");
+        assert!(
+            errors[2].0 < errors[0].0 / 50.0 && errors[2].1 < errors[0].1 / 50.0,
+            "{integrator:?} {errors:?}"
+        );
     }
 }
 
@@ -90,7 +111,9 @@ fn the_coupled_schemes_are_of_second_order() {
 fn the_crossing_is_linear_in_the_irregularity() {
     for integrator in Integrator::ALL {
         let crossing = paper_case(integrator, 0.005);
-        let out = run(&crossing, &[deflection(), body(Motion::Velocity)], |x| 1e-3 * (1.3 * x).cos());
+        let out = run(&crossing, &[deflection(), body(Motion::Velocity)], |x| {
+            1e-3 * (1.3 * x).cos()
+        });
         for rows in &out {
             for row in rows {
                 let slope = row[LANES - 1] - row[0];
@@ -122,7 +145,10 @@ fn velocities_and_accelerations_are_derivatives() {
             let scale = rate.iter().map(|r| r[9].abs()).fold(0.0, f64::max);
             for n in 2000..motion.len() - 1 {
                 let slope = (motion[n + 1][9] - motion[n - 1][9]) / 2e-4;
-                assert!((slope - rate[n][9]).abs() < 1e-3 * scale, "{integrator:?} {k} {n}");
+                assert!(
+                    (slope - rate[n][9]).abs() < 1e-3 * scale,
+                    "{integrator:?} {k} {n}"
+                );
             }
         }
     }
@@ -136,7 +162,11 @@ fn the_recorded_forces_obey_newton() {
     };
     for integrator in Integrator::ALL {
         let crossing = paper_case(integrator, 0.002);
-        let quantities = [Quantity::ContactForce, body(Motion::Acceleration), wheel.clone()];
+        let quantities = [
+            Quantity::ContactForce,
+            body(Motion::Acceleration),
+            wheel.clone(),
+        ];
         let out = run(&crossing, &quantities, |x| 1e-3 * (0.9 * x).sin());
         for ((force, upper), lower) in out[0].iter().zip(&out[1]).zip(&out[2]) {
             let inertia = crossing.weight() + 12000.0 * upper[7] + 500.0 * lower[7];
@@ -151,7 +181,9 @@ fn a_crawling_load_bends_the_beam_statically() {
     crossing.beam.damping_ratio = 0.05;
     crossing.car.speed = 0.2;
     crossing.steps = 4000;
-    let out = run(&crossing, &[midspan(BridgeResponse::BendingMoment)], |_| 0.0);
+    let out = run(&crossing, &[midspan(BridgeResponse::BendingMoment)], |_| {
+        0.0
+    });
     let middle = out[0][2000][0];
     let exact = crossing.weight() * 40.0 / 4.0;
     assert!((middle / exact - 1.0).abs() < 5e-3, "{middle} {exact}");
@@ -162,11 +194,15 @@ fn a_vehicle_that_starts_on_the_profile_starts_at_rest() {
     let mut crossing = paper_case(Integrator::Newmark, 0.001);
     crossing.initial_state = InitialState::Profile;
     crossing.car.approach = 5.0;
-    let out = run(&crossing, &[Quantity::ContactForce, body(Motion::Displacement)], |_| 2e-3);
+    let out = run(
+        &crossing,
+        &[Quantity::ContactForce, body(Motion::Displacement)],
+        |_| 2e-3,
+    );
     // A level step of the road under the whole run: nothing happens before the bridge.
-    for n in 0..240 {
-        assert!((out[0][n][LANES - 1] / crossing.weight() - 1.0).abs() < 1e-10);
-        assert!((out[1][n][LANES - 1] - 2e-3).abs() < 1e-12);
+    for (force, body) in out[0].iter().zip(&out[1]).take(240) {
+        assert!((force[LANES - 1] / crossing.weight() - 1.0).abs() < 1e-10);
+        assert!((body[LANES - 1] - 2e-3).abs() < 1e-12);
     }
 }
 
@@ -188,27 +224,36 @@ fn runge_kutta(crossing: &Crossing, eta: impl Fn(f64) -> f64, steps: usize) -> V
     let h = crossing.time_step * crossing.steps as f64 / steps as f64;
     let rates = |t: f64, s: &[f64]| -> Vec<f64> {
         let x = car.position(t);
-        let (y1, y2, v1, v2) = (s[2 * modes], s[2 * modes + 1], s[2 * modes + 2], s[2 * modes + 3]);
+        let (y1, y2, v1, v2) = (
+            s[2 * modes],
+            s[2 * modes + 1],
+            s[2 * modes + 2],
+            s[2 * modes + 3],
+        );
         let deck: f64 = (0..modes).map(|i| beam.shape(i + 1, x) * s[i]).sum();
         let p = car.tyre_stiffness * (deck + eta(x) - y2);
         let (d, r) = (y1 - y2, v1 - v2);
-        let stop = car.bump_stop.map_or(0.0, |b| b.stiffness * ((d - b.gap).max(0.0) + (d + b.gap).min(0.0)));
+        let stop = car.bump_stop.map_or(0.0, |b| {
+            b.stiffness * ((d - b.gap).max(0.0) + (d + b.gap).min(0.0))
+        });
         let force = car.suspension_stiffness * d
             + car.suspension_damping * r
             + car.suspension_cubic_stiffness * d.powi(3)
             + car.suspension_quadratic_damping * r.abs() * r
             + stop;
         let mut out = s[modes..2 * modes].to_vec();
-        for i in 0..modes {
+        for (i, q) in s[..modes].iter().enumerate() {
             let load = -beam.shape(i + 1, x) * (crossing.weight() + p) / beam.mass();
-            out.push(load - beam.frequency(i + 1).powi(2) * s[i]);
+            out.push(load - beam.frequency(i + 1).powi(2) * q);
         }
         out.extend([v1, v2, -force / car.body_mass, (force + p) / car.wheel_mass]);
         out
     };
     let mut s = vec![0.0; 2 * modes + 4];
     let mut history = vec![(0.0, rates(0.0, &s)[2 * modes + 2])];
-    let moved = |s: &[f64], k: &[f64], f: f64| -> Vec<f64> { s.iter().zip(k).map(|(a, b)| a + f * b).collect() };
+    let moved = |s: &[f64], k: &[f64], f: f64| -> Vec<f64> {
+        s.iter().zip(k).map(|(a, b)| a + f * b).collect()
+    };
     for n in 0..steps {
         let t = n as f64 * h;
         let k1 = rates(t, &s);
@@ -244,8 +289,14 @@ fn the_nonlinear_suspension_agrees_with_runge_kutta() {
                 .fold(0.0, f64::max);
             errors.push(error);
         }
-        println!("{:<17} nonlinear, 1 and 0.25 ms: {errors:?}", integrator.name());
-        assert!(errors[1] < 2e-3 && errors[1] < errors[0] / 8.0, "{integrator:?} {errors:?}");
+        println!(
+            "{:<17} nonlinear, 1 and 0.25 ms: {errors:?}",
+            integrator.name()
+        );
+        assert!(
+            errors[1] < 2e-3 && errors[1] < errors[0] / 8.0,
+            "{integrator:?} {errors:?}"
+        );
     }
 }
 
@@ -261,5 +312,8 @@ fn a_run_without_bound_is_named() {
     let mut strips = Strip::cut(&mut block, LANES);
     let result = Batch::new(&tables).run(|_, rows| rows.fill(0.0), &mut strips[0]);
     let divergence = result.unwrap_err();
-    assert!(divergence.step > 10 && divergence.step < 200, "{divergence:?}");
+    assert!(
+        divergence.step > 10 && divergence.step < 200,
+        "{divergence:?}"
+    );
 }

@@ -53,7 +53,8 @@ pub struct Propagator {
 impl Propagator {
     /// x(0) for given q(0), q̇(0) and f(0).
     pub fn initial(&self, q: f64, velocity: f64, force: f64) -> [f64; 3] {
-        self.start.map(|row| row[0] * q + row[1] * velocity + row[2] * force)
+        self.start
+            .map(|row| row[0] * q + row[1] * velocity + row[2] * force)
     }
 
     /// x(n+1) from x(n) and f(n).
@@ -112,7 +113,10 @@ impl Propagator {
         start: [[f64; 3]; 3],
     ) -> Propagator {
         let merged = std::array::from_fn(|i| {
-            push[i] + (0..3).map(|j| transition[i][j] * correction[j]).sum::<f64>()
+            push[i]
+                + (0..3)
+                    .map(|j| transition[i][j] * correction[j])
+                    .sum::<f64>()
         });
         let start = std::array::from_fn(|i| {
             let [q, v, f] = start[i];

@@ -40,11 +40,17 @@ fn errors(scheme: Integrator, o: Oscillator, steps: usize) -> (f64, f64) {
 fn every_scheme_is_of_second_order() {
     for scheme in Integrator::ALL {
         for decay in [0.0, 0.9] {
-            let o = Oscillator { frequency: 8.0, decay };
+            let o = Oscillator {
+                frequency: 8.0,
+                decay,
+            };
             let (coarse, fine) = (errors(scheme, o, 400), errors(scheme, o, 800));
             for (c, f) in [(coarse.0, fine.0), (coarse.1, fine.1)] {
                 let order = (c / f).log2();
-                assert!((1.85..2.2).contains(&order), "{scheme:?} {decay}: order {order}");
+                assert!(
+                    (1.85..2.2).contains(&order),
+                    "{scheme:?} {decay}: order {order}"
+                );
             }
         }
     }
@@ -54,14 +60,20 @@ fn every_scheme_is_of_second_order() {
 fn the_exponential_scheme_is_exact_on_the_free_oscillator() {
     for frequency in [0.0, 0.5, 70.0, std::f64::consts::PI / 0.01, 408.3] {
         for ratio in [0.0, 0.05, 1.0, 1.3] {
-            let o = Oscillator { frequency, decay: ratio * frequency };
+            let o = Oscillator {
+                frequency,
+                decay: ratio * frequency,
+            };
             let map = Integrator::Exponential.propagator(o, 0.01);
             let once = Integrator::Exponential.propagator(o, 0.02);
             let two = map.advance(map.advance(map.initial(0.7, -0.4, 0.0), 0.0), 0.0);
             let one = once.advance(once.initial(0.7, -0.4, 0.0), 0.0);
             let scale = 1.0 + frequency;
             assert!((two[0] - one[0]).abs() < 1e-12, "{frequency} {ratio}");
-            assert!((two[2] - one[2]).abs() < 1e-12 * scale, "{frequency} {ratio}");
+            assert!(
+                (two[2] - one[2]).abs() < 1e-12 * scale,
+                "{frequency} {ratio}"
+            );
         }
     }
 }
@@ -69,14 +81,21 @@ fn the_exponential_scheme_is_exact_on_the_free_oscillator() {
 #[test]
 fn the_exponential_scheme_holds_a_static_load_at_any_step() {
     for frequency in [1e-3, 0.9, 1.1, 50.0, 408.3] {
-        let o = Oscillator { frequency, decay: 0.02 * frequency };
+        let o = Oscillator {
+            frequency,
+            decay: 0.02 * frequency,
+        };
         let map = Integrator::Exponential.propagator(o, 0.01);
         let rest = 1.0 / (frequency * frequency);
         let mut x = map.initial(rest, 0.0, 1.0);
         for _ in 0..1000 {
             x = map.advance(x, 1.0);
         }
-        assert!((x[0] / rest - 1.0).abs() < 1e-6, "{frequency}: {}", x[0] / rest);
+        assert!(
+            (x[0] / rest - 1.0).abs() < 1e-6,
+            "{frequency}: {}",
+            x[0] / rest
+        );
         assert!(map.velocity_of(x, 1.0).abs() < 1e-6 * rest * frequency);
     }
 }
@@ -84,7 +103,10 @@ fn the_exponential_scheme_holds_a_static_load_at_any_step() {
 #[test]
 fn central_differences_are_stable_up_to_two() {
     for (product, stable) in [(1.999, true), (2.001, false)] {
-        let o = Oscillator { frequency: product / 0.01, decay: 0.0 };
+        let o = Oscillator {
+            frequency: product / 0.01,
+            decay: 0.0,
+        };
         let map = Integrator::ExplicitNewmark.propagator(o, 0.01);
         let mut x = map.initial(1.0, 0.0, 0.0);
         for _ in 0..2000 {
@@ -96,7 +118,10 @@ fn central_differences_are_stable_up_to_two() {
 
 #[test]
 fn average_acceleration_conserves_energy() {
-    let o = Oscillator { frequency: 30.0, decay: 0.0 };
+    let o = Oscillator {
+        frequency: 30.0,
+        decay: 0.0,
+    };
     let map = Integrator::Newmark.propagator(o, 0.05);
     let energy = |x: [f64; 3]| 0.5 * x[1] * x[1] + 0.5 * (o.frequency * x[0]).powi(2);
     let mut x = map.initial(1.0, 2.0, 0.0);

@@ -35,7 +35,12 @@ pub struct SpectralRepresentation {
 
 impl SpectralRepresentation {
     /// `count` wavenumbers up to `max` (rad/m), each in the middle of its share of the band.
-    pub fn new(spectrum: &dyn PowerSpectralDensity, form: FieldForm, max: f64, count: usize) -> Self {
+    pub fn new(
+        spectrum: &dyn PowerSpectralDensity,
+        form: FieldForm,
+        max: f64,
+        count: usize,
+    ) -> Self {
         let step = max / count as f64;
         let amplitudes = (0..count)
             .map(|k| (2.0 * spectrum.density((k as f64 + 0.5) * step) * step).sqrt())
@@ -76,7 +81,9 @@ impl SpectralRepresentation {
         match self.form {
             FieldForm::Gaussian => out.copy_from_slice(variables),
             FieldForm::RandomPhase => {
-                let rows = variables.chunks_exact(points).zip(out.chunks_exact_mut(2 * points));
+                let rows = variables
+                    .chunks_exact(points)
+                    .zip(out.chunks_exact_mut(2 * points));
                 for (row, pair) in rows {
                     let (cosines, sines) = pair.split_at_mut(points);
                     for ((x, cosine), sine) in row.iter().zip(cosines).zip(sines) {

@@ -61,6 +61,7 @@ impl PowerSpectralDensity for SecondOrderFilter {
             FilterForm::Printed => 2.0 * alpha * beta,
         };
         let distance = resonance - wavenumber * wavenumber;
-        4.0 * self.gamma * alpha * beta * resonance / (PI * (distance * distance + damping * damping))
+        4.0 * self.gamma * alpha * beta * resonance
+            / (PI * (distance * distance + damping * damping))
     }
 }

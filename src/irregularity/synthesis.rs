@@ -155,7 +155,12 @@ impl Matrix {
             self.turned(coefficients, points, first, group, &mut cosines, &mut sines);
             product(&cosines, &self.even, wavenumbers, self.evens, &mut even);
             product(&sines, &self.odd, wavenumbers, self.odds, &mut odd);
-            for (point, row) in out.chunks_exact_mut(positions).skip(first).take(group).enumerate() {
+            for (point, row) in out
+                .chunks_exact_mut(positions)
+                .skip(first)
+                .take(group)
+                .enumerate()
+            {
                 let even = &even[point * self.evens..(point + 1) * self.evens];
                 let odd = &odd[point * self.odds..(point + 1) * self.odds];
                 join(even, odd, row);
@@ -173,7 +178,9 @@ impl Matrix {
         cosines: &mut [f64],
         sines: &mut [f64],
     ) {
-        let rows = cosines.chunks_exact_mut(GROUP).zip(sines.chunks_exact_mut(GROUP));
+        let rows = cosines
+            .chunks_exact_mut(GROUP)
+            .zip(sines.chunks_exact_mut(GROUP));
         for ((k, (cos, sin)), (c, s)) in self.turn.iter().enumerate().zip(rows) {
             let x = &coefficients[2 * k * points + first..][..group];
             let y = &coefficients[(2 * k + 1) * points + first..][..group];
@@ -187,7 +194,11 @@ impl Matrix {
 
 /// `[point][distance]` = Σ_k left `[k][point]` right `[k][distance]`, for a whole group.
 fn product(left: &[f64], right: &[f64], inner: usize, columns: usize, out: &mut [f64]) {
-    assert!(left.len() >= inner * GROUP && right.len() >= inner * columns && out.len() >= GROUP * columns);
+    assert!(
+        left.len() >= inner * GROUP
+            && right.len() >= inner * columns
+            && out.len() >= GROUP * columns
+    );
     // SAFETY: the three matrices lie within their slices, as asserted, with these strides.
     unsafe {
         matrixmultiply::dgemm(
@@ -218,7 +229,12 @@ fn join(even: &[f64], odd: &[f64], row: &mut [f64]) {
         above[0] += even[0];
     }
     let (even, above) = (&even[central..], &mut above[central..]);
-    for (((above, below), e), o) in above.iter_mut().zip(below.iter_mut().rev()).zip(even).zip(odd) {
+    for (((above, below), e), o) in above
+        .iter_mut()
+        .zip(below.iter_mut().rev())
+        .zip(even)
+        .zip(odd)
+    {
         *above += e + o;
         *below += e - o;
     }
@@ -288,7 +304,10 @@ impl Chirp {
 
     fn add(&self, coefficients: &[f64], points: usize, out: &mut [f64], positions: usize) {
         let mut buffer = vec![Complex64::ZERO; self.filter.len()];
-        let space = self.forward.get_inplace_scratch_len().max(self.inverse.get_inplace_scratch_len());
+        let space = self
+            .forward
+            .get_inplace_scratch_len()
+            .max(self.inverse.get_inplace_scratch_len());
         let mut scratch = vec![Complex64::ZERO; space];
         for (point, row) in out.chunks_exact_mut(positions).enumerate() {
             buffer[self.before.len()..].fill(Complex64::ZERO);

@@ -68,7 +68,10 @@ impl Tabulated {
 
     /// The first and the last wavenumber (rad/m).
     pub fn band(&self) -> (f64, f64) {
-        (self.wavenumbers[0], self.wavenumbers[self.wavenumbers.len() - 1])
+        (
+            self.wavenumbers[0],
+            self.wavenumbers[self.wavenumbers.len() - 1],
+        )
     }
 }
 

@@ -14,12 +14,23 @@ fn filter(form: FilterForm) -> SecondOrderFilter {
 
 #[test]
 fn the_target_variance_is_met() {
-    for (form, exact) in [(FilterForm::Corrected, 0.2000e-4), (FilterForm::Printed, 0.219737e-4)] {
+    for (form, exact) in [
+        (FilterForm::Corrected, 0.2000e-4),
+        (FilterForm::Printed, 0.219737e-4),
+    ] {
         let spectrum = filter(form);
-        assert!((spectrum.variance() / exact - 1.0).abs() < 2e-6, "{form:?}: {}", spectrum.variance());
+        assert!(
+            (spectrum.variance() / exact - 1.0).abs() < 2e-6,
+            "{form:?}: {}",
+            spectrum.variance()
+        );
         let field = SpectralRepresentation::new(&spectrum, FieldForm::Gaussian, 10.0, 512);
         // 1.7e-7 cm² lies beyond 10 rad/m; the midpoint rule is exact to e^(−2πα/ΔΩ).
-        assert!((field.variance() - spectrum.variance()).abs() < 2e-11, "{form:?}: {}", field.variance());
+        assert!(
+            (field.variance() - spectrum.variance()).abs() < 2e-11,
+            "{form:?}: {}",
+            field.variance()
+        );
     }
 }
 
@@ -38,7 +49,11 @@ fn the_corrected_form_has_its_autocorrelation() {
             .map(|k| (k as f64 + 0.5) * step)
             .map(|w| 2.0 * spectrum.density(w) * (w * x).cos() * step)
             .sum();
-        let exact = 2.0 * beta * gamma * (-alpha * x).exp() * ((beta * x).cos() + alpha / beta * (beta * x).sin());
+        let exact = 2.0
+            * beta
+            * gamma
+            * (-alpha * x).exp()
+            * ((beta * x).cos() + alpha / beta * (beta * x).sin());
         assert!((sum - exact).abs() < 1e-10, "{x}: {sum} {exact}");
     }
 }
@@ -48,28 +63,49 @@ fn a_table_of_any_convention_is_the_same_spectrum() {
     let spectrum = filter(FilterForm::Corrected);
     let wavenumbers: Vec<f64> = (1..400).map(|k| k as f64 * 0.025).collect();
     let two: Vec<f64> = wavenumbers.iter().map(|w| spectrum.density(*w)).collect();
-    let cycles: Vec<f64> = wavenumbers.iter().map(|w| w / std::f64::consts::TAU).collect();
-    let one: Vec<f64> = two.iter().map(|s| 2.0 * s * std::f64::consts::TAU).collect();
+    let cycles: Vec<f64> = wavenumbers
+        .iter()
+        .map(|w| w / std::f64::consts::TAU)
+        .collect();
+    let one: Vec<f64> = two
+        .iter()
+        .map(|s| 2.0 * s * std::f64::consts::TAU)
+        .collect();
     let a = Tabulated::new(&wavenumbers, &two, false, false).unwrap();
     let b = Tabulated::new(&cycles, &one, true, true).unwrap();
     for w in [0.03, 0.1, 0.777, 5.0, 9.9] {
         assert!((a.density(w) / b.density(w) - 1.0).abs() < 1e-12);
-        assert!((a.density(w) / spectrum.density(w) - 1.0).abs() < 5e-3, "{w}");
+        assert!(
+            (a.density(w) / spectrum.density(w) - 1.0).abs() < 5e-3,
+            "{w}"
+        );
     }
     assert_eq!(a.density(0.01), 0.0);
     assert_eq!(a.density(10.1), 0.0);
     let falling = Tabulated::new(&[1.0, 2.0, 2.0], &[1.0; 3], false, false);
-    assert_eq!(falling.unwrap_err().to_string(), "row 3: the wavenumber 2 does not exceed the one before, 2");
+    assert_eq!(
+        falling.unwrap_err().to_string(),
+        "row 3: the wavenumber 2 does not exceed the one before, 2"
+    );
 }
 
-fn direct(field: &SpectralRepresentation, x: f64, coefficients: &[f64], points: usize, point: usize) -> f64 {
+fn direct(
+    field: &SpectralRepresentation,
+    x: f64,
+    coefficients: &[f64],
+    points: usize,
+    point: usize,
+) -> f64 {
     field
         .amplitudes()
         .iter()
         .enumerate()
         .map(|(k, a)| {
             let phase = (k as f64 + 0.5) * field.step() * x;
-            let (c, s) = (coefficients[2 * k * points + point], coefficients[(2 * k + 1) * points + point]);
+            let (c, s) = (
+                coefficients[2 * k * points + point],
+                coefficients[(2 * k + 1) * points + point],
+            );
             a * (c * phase.cos() + s * phase.sin())
         })
         .sum()
@@ -79,10 +115,38 @@ fn direct(field: &SpectralRepresentation, x: f64, coefficients: &[f64], points: 
 fn fast_sums_are_the_direct_sum() {
     let spectrum = filter(FilterForm::Corrected);
     for (count, grid) in [
-        (512, Grid { start: 0.0, spacing: 0.05, count: 801 }),
-        (512, Grid { start: 0.0, spacing: 0.2, count: 200 }),
-        (37, Grid { start: -12.3, spacing: 0.31, count: 78 }),
-        (1, Grid { start: 3.0, spacing: 0.1, count: 4 }),
+        (
+            512,
+            Grid {
+                start: 0.0,
+                spacing: 0.05,
+                count: 801,
+            },
+        ),
+        (
+            512,
+            Grid {
+                start: 0.0,
+                spacing: 0.2,
+                count: 200,
+            },
+        ),
+        (
+            37,
+            Grid {
+                start: -12.3,
+                spacing: 0.31,
+                count: 78,
+            },
+        ),
+        (
+            1,
+            Grid {
+                start: 3.0,
+                spacing: 0.1,
+                count: 4,
+            },
+        ),
     ] {
         for form in [FieldForm::Gaussian, FieldForm::RandomPhase] {
             let field = SpectralRepresentation::new(&spectrum, form, 10.0, count);
@@ -95,10 +159,19 @@ fn fast_sums_are_the_direct_sum() {
             for method in [Method::MatrixProduct, Method::ChirpTransform] {
                 let mut out = vec![0.0; points * grid.count];
                 Synthesis::by(method, &field, grid).add(&coefficients, points, &mut out);
-                for (point, j) in [(0, 0), (1, grid.count - 1), (66, grid.count / 2), (64, 1), (13, 3)] {
+                for (point, j) in [
+                    (0, 0),
+                    (1, grid.count - 1),
+                    (66, grid.count / 2),
+                    (64, 1),
+                    (13, 3),
+                ] {
                     let exact = direct(&field, grid.position(j), &coefficients, points, point);
                     let got = out[point * grid.count + j];
-                    assert!((got - exact).abs() < 1e-15 * (count as f64).sqrt(), "{method:?} {point} {j}: {got} {exact}");
+                    assert!(
+                        (got - exact).abs() < 1e-15 * (count as f64).sqrt(),
+                        "{method:?} {point} {j}: {got} {exact}"
+                    );
                 }
             }
         }
@@ -107,8 +180,17 @@ fn fast_sums_are_the_direct_sum() {
 
 #[test]
 fn a_point_does_not_depend_on_its_group() {
-    let field = SpectralRepresentation::new(&filter(FilterForm::Corrected), FieldForm::Gaussian, 10.0, 64);
-    let grid = Grid { start: 0.0, spacing: 0.2, count: 51 };
+    let field = SpectralRepresentation::new(
+        &filter(FilterForm::Corrected),
+        FieldForm::Gaussian,
+        10.0,
+        64,
+    );
+    let grid = Grid {
+        start: 0.0,
+        spacing: 0.2,
+        count: 51,
+    };
     let rule = MonteCarlo::new(300, field.dimensions(), 5);
     let synthesis = Synthesis::by(Method::MatrixProduct, &field, grid);
     let rows = |range: std::ops::Range<usize>| {
@@ -129,9 +211,19 @@ fn deterministic_profiles() {
         positions: vec![0.0, 1.0, 3.0],
         heights: vec![0.0, 2.0, -2.0],
     };
-    for (x, y) in [(-1.0, 0.0), (0.5, 1.0), (2.0, 0.0), (3.0, -2.0), (9.0, -2.0)] {
+    for (x, y) in [
+        (-1.0, 0.0),
+        (0.5, 1.0),
+        (2.0, 0.0),
+        (3.0, -2.0),
+        (9.0, -2.0),
+    ] {
         assert!((profile.height(x) - y).abs() < 1e-15);
     }
-    let sine = Deterministic::Sine { amplitude: 2.0, wavelength: 4.0, phase: 0.0 };
+    let sine = Deterministic::Sine {
+        amplitude: 2.0,
+        wavelength: 4.0,
+        phase: 0.0,
+    };
     assert!((sine.height(1.0) - 2.0).abs() < 1e-15);
 }

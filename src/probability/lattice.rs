@@ -89,7 +89,13 @@ mod tests {
     #[test]
     fn fibonacci_counts_take_the_number_before() {
         for (n, h) in [(377, 233), (610, 377), (987, 610), (2, 1), (1, 1)] {
-            assert_eq!(Lattice::best(n), Lattice { count: n, generator: h });
+            assert_eq!(
+                Lattice::best(n),
+                Lattice {
+                    count: n,
+                    generator: h
+                }
+            );
         }
     }
 
@@ -116,7 +122,10 @@ mod tests {
                     .map(|k| (lattice.point(k)[coordinate] * n as f64).floor() as usize)
                     .collect();
                 strata.sort_unstable();
-                assert!(strata.iter().enumerate().all(|(i, s)| i == *s), "{n} {coordinate}");
+                assert!(
+                    strata.iter().enumerate().all(|(i, s)| i == *s),
+                    "{n} {coordinate}"
+                );
             }
         }
     }

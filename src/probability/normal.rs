@@ -42,10 +42,10 @@ fn ratio(coefficients: &[[f64; 8]; 2], x: f64) -> f64 {
 const CENTRAL: [[f64; 8]; 2] = [
     [
         2.509_080_928_730_122_7e3,
-        3.343_057_558_358_812_8e4,
+        33_430.575_583_588_13,
         6.726_577_092_700_87e4,
         4.592_195_393_154_987e4,
-        1.373_169_376_550_946_1e4,
+        13_731.693_765_509_46,
         1.971_590_950_306_551_3e3,
         1.331_416_678_917_843_8e2,
         3.387_132_872_796_366_5,
@@ -118,12 +118,18 @@ mod tests {
             let p = 10f64.powf(-f64::from(exponent));
             let x = quantile(p);
             // The relative error of the probability is that of x times x².
-            assert!((cumulative(x) / p - 1.0).abs() < 2e-16 * (4.0 + x * x) * 4.0, "{p}");
+            assert!(
+                (cumulative(x) / p - 1.0).abs() < 2e-16 * (4.0 + x * x) * 4.0,
+                "{p}"
+            );
         }
         for k in 1..1000 {
             let p = f64::from(k) / 1000.0;
             assert!((cumulative(quantile(p)) - p).abs() < 3e-16, "{p}");
-            assert_eq!(quantile(p).signum(), if k == 500 { 1.0 } else { (p - 0.5).signum() });
+            assert_eq!(
+                quantile(p).signum(),
+                if k == 500 { 1.0 } else { (p - 0.5).signum() }
+            );
         }
     }
 

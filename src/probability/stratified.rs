@@ -32,7 +32,8 @@ impl PartiallyStratified {
         let permutations = if lattice.is_empty() {
             Vec::new()
         } else {
-            let draw = |k| Permutation::random(lattice.len(), &mut stream(seed, Purpose::Permutation, k));
+            let draw =
+                |k| Permutation::random(lattice.len(), &mut stream(seed, Purpose::Permutation, k));
             (0..subspaces).map(draw).collect()
         };
         PartiallyStratified {
@@ -49,7 +50,11 @@ fn rescale(points: &mut [[f64; 2]]) {
     for c in 0..2 {
         let mean = points.iter().map(|x| x[c]).sum::<f64>() / n;
         let variance = points.iter().map(|x| (x[c] - mean).powi(2)).sum::<f64>() / n;
-        let factor = if variance > 0.0 { variance.sqrt().recip() } else { 1.0 };
+        let factor = if variance > 0.0 {
+            variance.sqrt().recip()
+        } else {
+            1.0
+        };
         for x in points.iter_mut() {
             x[c] *= factor;
         }

@@ -4,8 +4,14 @@ use super::*;
 
 fn rules(count: usize, dimensions: usize) -> Vec<(&'static str, Box<dyn PointRule>)> {
     vec![
-        ("monte-carlo", Box::new(MonteCarlo::new(count, dimensions, 7))),
-        ("latin-hypercube", Box::new(LatinHypercube::new(count, dimensions, 7))),
+        (
+            "monte-carlo",
+            Box::new(MonteCarlo::new(count, dimensions, 7)),
+        ),
+        (
+            "latin-hypercube",
+            Box::new(LatinHypercube::new(count, dimensions, 7)),
+        ),
         (
             "partially-stratified",
             Box::new(PartiallyStratified::new(count, None, dimensions, 7)),
@@ -28,7 +34,11 @@ fn any_range_of_points_is_the_same_as_in_the_whole() {
             rule.standard_normals(range.clone(), &mut part);
             for d in 0..7 {
                 let same = &whole[d * 500 + range.start..d * 500 + range.end];
-                assert_eq!(&part[d * range.len()..(d + 1) * range.len()], same, "{name} {d}");
+                assert_eq!(
+                    &part[d * range.len()..(d + 1) * range.len()],
+                    same,
+                    "{name} {d}"
+                );
             }
         }
     }
@@ -45,8 +55,15 @@ fn moments_are_those_of_independent_standard_normals() {
             assert!(mean.abs() < 4.5 / (n as f64).sqrt(), "{name} mean {mean}");
             for j in 0..=i {
                 let product = row(i).iter().zip(row(j)).map(|(a, b)| a * b).sum::<f64>() / n as f64;
-                let (exact, error) = if i == j { (1.0, 2f64.sqrt()) } else { (0.0, 1.0) };
-                assert!((product - exact).abs() < 4.5 * error / (n as f64).sqrt(), "{name} {i} {j}: {product}");
+                let (exact, error) = if i == j {
+                    (1.0, 2f64.sqrt())
+                } else {
+                    (0.0, 1.0)
+                };
+                assert!(
+                    (product - exact).abs() < 4.5 * error / (n as f64).sqrt(),
+                    "{name} {i} {j}: {product}"
+                );
             }
         }
     }
@@ -57,7 +74,10 @@ fn strata_are_filled_once_in_each_dimension() {
     let n = 610;
     for (name, rule) in rules(n, 5).into_iter().skip(1) {
         for row in all(rule.as_ref()).chunks_exact(n) {
-            let mut strata: Vec<usize> = row.iter().map(|x| (cumulative(*x) * n as f64) as usize).collect();
+            let mut strata: Vec<usize> = row
+                .iter()
+                .map(|x| (cumulative(*x) * n as f64) as usize)
+                .collect();
             strata.sort_unstable();
             assert!(strata.iter().enumerate().all(|(i, s)| i == *s), "{name}");
         }
@@ -83,7 +103,12 @@ fn subspaces_hold_the_same_lattice_in_different_orders() {
     let x = all(&rule);
     let pairs = |k: usize| -> Vec<[u64; 2]> {
         (0..377)
-            .map(|p| [x[2 * k * 377 + p].to_bits(), x[(2 * k + 1) * 377 + p].to_bits()])
+            .map(|p| {
+                [
+                    x[2 * k * 377 + p].to_bits(),
+                    x[(2 * k + 1) * 377 + p].to_bits(),
+                ]
+            })
             .collect()
     };
     let sorted = |mut v: Vec<[u64; 2]>| {
@@ -100,7 +125,9 @@ fn permutations_are_permutations_without_pattern() {
     for n in [1, 2, 3, 10, 984, 5000] {
         let permutation = Permutation::random(n, &mut stream(5, Purpose::Permutation, n));
         let mut seen = vec![false; n];
-        permutation.images(0..n, |_, image| assert!(!std::mem::replace(&mut seen[image], true)));
+        permutation.images(0..n, |_, image| {
+            assert!(!std::mem::replace(&mut seen[image], true))
+        });
         assert!(seen.iter().all(|s| *s));
     }
     // Serial correlation of one permutation and correlation between two: within 4.5 standard errors.

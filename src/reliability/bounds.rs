@@ -9,9 +9,19 @@ pub fn confidence_bounds(probability: f64, effective_count: f64, confidence: f64
     let half = 0.5 * (1.0 - confidence);
     let p = probability.clamp(0.0, 1.0);
     let (failed, safe) = (effective_count * p, effective_count * (1.0 - p));
-    let quantile = |a: f64, b: f64, level: f64| Beta::new(a, b).map_or(f64::NAN, |beta| beta.inverse_cdf(level));
+    let quantile = |a: f64, b: f64, level: f64| {
+        Beta::new(a, b).map_or(f64::NAN, |beta| beta.inverse_cdf(level))
+    };
     // Less than a thousandth of a point is none.
-    let lower = if failed < 1e-3 { 0.0 } else { quantile(failed, safe + 1.0, half) };
-    let upper = if safe < 1e-3 { 1.0 } else { quantile(failed + 1.0, safe, 1.0 - half) };
+    let lower = if failed < 1e-3 {
+        0.0
+    } else {
+        quantile(failed, safe + 1.0, half)
+    };
+    let upper = if safe < 1e-3 {
+        1.0
+    } else {
+        quantile(failed + 1.0, safe, 1.0 - half)
+    };
     (lower, upper)
 }

@@ -36,7 +36,11 @@ pub enum Method {
 
 impl Method {
     /// All of them, in the order of results.
-    pub const ALL: [Method; 3] = [Method::Counting, Method::ExtremeValue, Method::AbsorbingCondition];
+    pub const ALL: [Method; 3] = [
+        Method::Counting,
+        Method::ExtremeValue,
+        Method::AbsorbingCondition,
+    ];
 
     /// The name in tables.
     pub fn name(self) -> &'static str {
@@ -72,10 +76,19 @@ pub struct LimitResult {
 }
 
 /// First passage of all limits, in their order.
-pub fn first_passage(source: &dyn Responses, limits: &[Limit], options: Options) -> Result<Vec<LimitResult>> {
+pub fn first_passage(
+    source: &dyn Responses,
+    limits: &[Limit],
+    options: Options,
+) -> Result<Vec<LimitResult>> {
     let times = source.times().len();
-    let mut passages: Vec<Passage> = limits.iter().map(|limit| Passage::new(source, limit)).collect();
-    scan(source, limits, &mut passages, |passage, block| passage.first(block))?;
+    let mut passages: Vec<Passage> = limits
+        .iter()
+        .map(|limit| Passage::new(source, limit))
+        .collect();
+    scan(source, limits, &mut passages, |passage, block| {
+        passage.first(block)
+    })?;
     let per_time = (3.0 * (BINS + 2.0) * 8.0) as usize * limits.len().max(1);
     let window = (MEMORY / per_time).max(1);
     for first in (0..times).step_by(window) {
@@ -83,8 +96,12 @@ pub fn first_passage(source: &dyn Responses, limits: &[Limit], options: Options)
         for passage in &mut passages {
             passage.open(range.clone());
         }
-        scan(source, limits, &mut passages, |passage, block| passage.second(block))?;
-        passages.par_iter_mut().for_each(|passage| passage.close(options));
+        scan(source, limits, &mut passages, |passage, block| {
+            passage.second(block)
+        })?;
+        passages
+            .par_iter_mut()
+            .for_each(|passage| passage.close(options));
     }
     Ok(passages.into_iter().map(Passage::result).collect())
 }
@@ -101,7 +118,9 @@ fn scan(
     wanted.dedup();
     source.scan(&wanted, &mut |blocks| {
         passages.par_iter_mut().for_each(|passage| {
-            let own = blocks.iter().filter(|b| b.quantity == passage.limit.quantity);
+            let own = blocks
+                .iter()
+                .filter(|b| b.quantity == passage.limit.quantity);
             own.for_each(|block| feed(passage, block));
         });
         Ok(())
@@ -168,7 +187,10 @@ impl<'a> Passage<'a> {
         responses.add(block.values, probability);
         running.add(extremes, probability);
         let level = self.limit.level();
-        let safe = extremes.iter().zip(probability).map(|(z, p)| if *z <= level { *p } else { 0.0 });
+        let safe = extremes
+            .iter()
+            .zip(probability)
+            .map(|(z, p)| if *z <= level { *p } else { 0.0 });
         self.safe[block.time] += safe.sum::<f64>();
     }
 
@@ -178,7 +200,8 @@ impl<'a> Passage<'a> {
         self.first_open = times.start;
         let bins = |sums: &PowerSums| {
             let spacing = (sums.largest - sums.least) / BINS;
-            sums.has_spread().then(|| Bins::new(sums.least, sums.largest, spacing))
+            sums.has_spread()
+                .then(|| Bins::new(sums.least, sums.largest, spacing))
         };
         self.open = self.sums[times]
             .iter()
@@ -192,7 +215,11 @@ impl<'a> Passage<'a> {
 
     fn second(&mut self, block: &Block<'_>) {
         let points = self.follow(block);
-        let Some(open) = block.time.checked_sub(self.first_open).and_then(|k| self.open.get_mut(k)) else {
+        let Some(open) = block
+            .time
+            .checked_sub(self.first_open)
+            .and_then(|k| self.open.get_mut(k))
+        else {
             return;
         };
         let probability = &self.probability[points.clone()];
@@ -221,7 +248,8 @@ impl<'a> Passage<'a> {
             let [responses, extremes] = &self.sums[time];
             let counted = self.safe[time];
             let width = |bins: &Option<Bins>, sums: &PowerSums| {
-                bins.as_ref().map(|bins| self.width(bins, sums, options.smoothing))
+                bins.as_ref()
+                    .map(|bins| self.width(bins, sums, options.smoothing))
             };
             let extreme_width = width(&open.extremes, extremes);
             let by_extreme = match (&open.extremes, extreme_width) {
@@ -233,14 +261,21 @@ impl<'a> Passage<'a> {
                 (Some(bins), Some(width)) => self.inside(bins, width),
                 _ => counted,
             };
-            let least = self.estimates[2].last().map_or(1.0, |e: &Estimate| e.reliability);
+            let least = self.estimates[2]
+                .last()
+                .map_or(1.0, |e: &Estimate| e.reliability);
             let found = [
                 (counted, 0.0),
                 (by_extreme, extreme_width.unwrap_or(0.0)),
                 (by_absorption.min(least), response_width.unwrap_or(0.0)),
             ];
             for (list, (reliability, width)) in self.estimates.iter_mut().zip(found) {
-                list.push(estimate(reliability, width, self.effective_count, options.confidence));
+                list.push(estimate(
+                    reliability,
+                    width,
+                    self.effective_count,
+                    options.confidence,
+                ));
             }
             if time + 1 == self.sums.len()
                 && let (Some(bins), Some(width)) = (&open.extremes, extreme_width)
@@ -261,7 +296,9 @@ impl<'a> Passage<'a> {
     /// Σ mass Φ((b − x)/σ).
     fn below(&self, bins: &Bins, width: f64, level: f64) -> f64 {
         let width = bins.kernel_width(width);
-        bins.nodes().map(|(x, mass)| mass * cumulative((level - x) / width)).sum()
+        bins.nodes()
+            .map(|(x, mass)| mass * cumulative((level - x) / width))
+            .sum()
     }
 
     /// The smoothed probability between the thresholds.
@@ -269,7 +306,9 @@ impl<'a> Passage<'a> {
         let threshold = self.limit.threshold;
         let total: f64 = bins.nodes().map(|x| x.1).sum();
         match self.limit.side {
-            Side::Absolute => self.below(bins, width, threshold) - self.below(bins, width, -threshold),
+            Side::Absolute => {
+                self.below(bins, width, threshold) - self.below(bins, width, -threshold)
+            }
             Side::Upper => self.below(bins, width, threshold),
             Side::Lower => total - self.below(bins, width, threshold),
         }
@@ -285,7 +324,11 @@ impl<'a> Passage<'a> {
 
 fn estimate(reliability: f64, width: f64, effective_count: f64, confidence: f64) -> Estimate {
     // Σ P is 1 to rounding only.
-    let reliability = if reliability > 1.0 - 1e-12 { 1.0 } else { reliability.max(0.0) };
+    let reliability = if reliability > 1.0 - 1e-12 {
+        1.0
+    } else {
+        reliability.max(0.0)
+    };
     let failure = 1.0 - reliability;
     let (lower, upper) = confidence_bounds(failure, effective_count, confidence);
     Estimate {

@@ -17,6 +17,7 @@
 //! A new key is a new field; a new kind is a new variant. Conditions between keys are in each table's `check`.
 
 mod bridge;
+mod build;
 mod check;
 mod density;
 mod irregularity;

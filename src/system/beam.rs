@@ -40,7 +40,8 @@ pub struct Section {
 impl Beam {
     /// ωᵢ (rad/s), i = 1, 2, ...
     pub fn frequency(&self, mode: usize) -> f64 {
-        (mode as f64 * PI / self.span).powi(2) * (self.flexural_rigidity / self.mass_per_length).sqrt()
+        (mode as f64 * PI / self.span).powi(2)
+            * (self.flexural_rigidity / self.mass_per_length).sqrt()
     }
 
     /// The oscillator of mode i = 1, 2, ...

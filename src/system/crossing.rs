@@ -63,7 +63,10 @@ impl Crossing {
 
     pub(super) fn propagators(&self) -> Vec<Propagator> {
         (1..=self.beam.modes)
-            .map(|i| self.integrator.propagator(self.beam.oscillator(i), self.time_step))
+            .map(|i| {
+                self.integrator
+                    .propagator(self.beam.oscillator(i), self.time_step)
+            })
             .collect()
     }
 
@@ -101,17 +104,35 @@ pub struct CrossingTables {
 impl CrossingTables {
     fn new(crossing: &Crossing, quantities: &[Quantity]) -> Self {
         let needs_velocity = crossing.beam.damping_ratio > 0.0
-            && quantities.iter().any(|q| matches!(motion_of(q), Some(Motion::Acceleration)))
-            || quantities.iter().any(|q| matches!(motion_of(q), Some(Motion::Velocity)));
+            && quantities
+                .iter()
+                .any(|q| matches!(motion_of(q), Some(Motion::Acceleration)))
+            || quantities
+                .iter()
+                .any(|q| matches!(motion_of(q), Some(Motion::Velocity)));
         let rolls = quantities.iter().any(|q| {
-            matches!(q, Quantity::Vehicle { motion: Motion::Velocity, .. })
+            matches!(
+                q,
+                Quantity::Vehicle {
+                    motion: Motion::Velocity,
+                    ..
+                }
+            )
         });
-        let heave = crossing.integrator.propagator(crossing.car.heave(), crossing.time_step);
+        let heave = crossing
+            .integrator
+            .propagator(crossing.car.heave(), crossing.time_step);
         let full = crossing.propagators();
         let scales: Vec<f64> = full.iter().map(scale).collect();
         let modal: Vec<Propagator> = full
             .iter()
-            .map(|p| if needs_velocity { *p } else { p.without_velocity() })
+            .map(|p| {
+                if needs_velocity {
+                    *p
+                } else {
+                    p.without_velocity()
+                }
+            })
             .zip(&scales)
             .map(|(p, s)| p.scaled(*s))
             .collect();
@@ -131,7 +152,9 @@ impl CrossingTables {
             } else {
                 heave.without_velocity()
             },
-            travel: crossing.integrator.propagator(car.travel(), crossing.time_step),
+            travel: crossing
+                .integrator
+                .propagator(car.travel(), crossing.time_step),
             modal,
             shape,
             load,
@@ -166,7 +189,8 @@ impl CrossingTables {
                 .map(|(k, map)| self.shape[k] * map.compliance * self.load[k])
                 .sum();
             let stiffness = car.tyre_stiffness;
-            self.contact_stiffness.push(stiffness / (1.0 + stiffness * (wheel - deck)));
+            self.contact_stiffness
+                .push(stiffness / (1.0 + stiffness * (wheel - deck)));
             self.static_offset.push(deck * self.weight);
             let next = if n < steps {
                 here.zip(&self.modal)
@@ -190,7 +214,9 @@ impl CrossingTables {
 
     /// The lane pattern of the modes.
     pub fn modal_pattern(&self) -> Pattern {
-        self.modal.first().map_or(self.travel.pattern, |p| p.pattern)
+        self.modal
+            .first()
+            .map_or(self.travel.pattern, |p| p.pattern)
     }
 }
 

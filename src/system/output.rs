@@ -157,13 +157,21 @@ impl VehicleMap<'_> {
     /// (x_δ, P, N) of the travel's rate δ̇.
     pub fn travel_rate(&self) -> ([f64; 3], f64, f64) {
         let (state, force) = velocity(self.travel);
-        (state, -force / self.car.wheel_mass, -force / self.car.reduced_mass())
+        (
+            state,
+            -force / self.car.wheel_mass,
+            -force / self.car.reduced_mass(),
+        )
     }
 
     /// (x_δ, P, N) of the travel δ.
     pub fn travel(&self) -> ([f64; 3], f64, f64) {
         let (state, force) = displacement(self.travel);
-        (state, -force / self.car.wheel_mass, -force / self.car.reduced_mass())
+        (
+            state,
+            -force / self.car.wheel_mass,
+            -force / self.car.reduced_mass(),
+        )
     }
 
     fn map(&self, part: VehiclePart, motion: Motion) -> OutputMap {

@@ -107,7 +107,11 @@ mod tests {
         for (modes, stable) in [(6, true), (7, false), (10, false)] {
             let mut crossing = paper_case(Integrator::ExplicitNewmark, 0.01);
             crossing.beam.modes = modes;
-            assert_eq!(spectral_radius(&crossing) <= 1.0 + GROWTH, stable, "{modes}");
+            assert_eq!(
+                spectral_radius(&crossing) <= 1.0 + GROWTH,
+                stable,
+                "{modes}"
+            );
         }
     }
 

@@ -1,0 +1,207 @@
+//! `dpim check`: what a scenario costs and whether its step is stable, before the work.
+
+use crate::Result;
+use crate::cli;
+use crate::ensemble::LANES;
+use crate::files::recording::band_layout;
+use crate::integrate::Integrator;
+use crate::irregularity::SpectralRepresentation;
+use crate::scenario::{IrregularitySpec, Precision, Scenario};
+use crate::system::{Crossing, largest_stable_step};
+use std::fmt::Write;
+
+/// Point-steps a core does in a second, as measured with ten modes and AVX2: an estimate's only need.
+const POINT_STEPS_PER_SECOND: f64 = 3e8;
+
+pub(super) fn run(args: &cli::Check) -> Result<()> {
+    let scenario = args.scenario.load()?;
+    scenario.check_all()?;
+    let mut text = String::new();
+    let mut write = |line: String| {
+        let _ = writeln!(text, "{line}");
+    };
+    write(format!(
+        "{}: {}",
+        args.scenario.scenario.display(),
+        scenario.title().unwrap_or("without a title")
+    ));
+    let points = if scenario.has("points") {
+        excitation(&scenario, &mut write)?
+    } else {
+        None
+    };
+    if scenario.has("simulation") {
+        simulation(&scenario, points, &mut write)?;
+    }
+    super::print(&text)
+}
+
+/// Points and irregularity; returns the number of points.
+fn excitation(scenario: &Scenario, write: &mut impl FnMut(String)) -> Result<Option<usize>> {
+    let spec = scenario.points()?;
+    if !scenario.has("irregularity") {
+        return Ok(None);
+    }
+    let irregularity = scenario.irregularity()?;
+    scenario.check_truncation(&spec, &irregularity)?;
+    let grid = scenario.irregularity_grid(&irregularity)?;
+    let dimensions = variables(&irregularity);
+    // The number of points does not depend on the dimensions.
+    let count = spec.build(dimensions.min(2)).count();
+    write(format!(
+        "points: {count} by {} in {dimensions} standard normal variables",
+        spec.rule.name()
+    ));
+    write(format!(
+        "irregularity: {} positions from {} to {} m, {} m apart",
+        grid.count,
+        grid.start,
+        grid.position(grid.count - 1),
+        grid.spacing
+    ));
+    if let (Some(crate::scenario::SpectrumSpec::SecondOrderFilter(filter)), Some(band)) =
+        (&irregularity.spectrum, &irregularity.wavenumber)
+    {
+        let filter = filter.build();
+        let field = SpectralRepresentation::new(
+            &filter,
+            irregularity.field.build(),
+            band.max,
+            band.count as usize,
+        );
+        write(format!(
+            "  standard deviation {:.6e} m (of the whole spectrum: {:.6e} m)",
+            field.variance().sqrt(),
+            filter.variance().sqrt()
+        ));
+        let period = 2.0 * std::f64::consts::PI * f64::from(band.count) / band.max;
+        let length = grid.position(grid.count - 1) - grid.start;
+        if length > 0.5 * period {
+            write(format!(
+                "  note: the field repeats after {period:.1} m (up to the sign): take more wavenumbers"
+            ));
+        }
+    }
+    write(format!(
+        "  points file: about {}",
+        size(count * (8 * grid.count + 8))
+    ));
+    Ok(Some(count))
+}
+
+fn variables(spec: &IrregularitySpec) -> usize {
+    let per_wavenumber = match spec.field {
+        crate::scenario::FieldKind::Gaussian => 2,
+        crate::scenario::FieldKind::RandomPhase => 1,
+    };
+    spec.wavenumber
+        .as_ref()
+        .map_or(0, |band| per_wavenumber * band.count as usize)
+}
+
+/// Frequencies, steps and sizes of the simulation.
+fn simulation(
+    scenario: &Scenario,
+    points: Option<usize>,
+    write: &mut impl FnMut(String),
+) -> Result<()> {
+    let spec = scenario.simulation()?;
+    let crossing = scenario.crossing_at_any_step(&spec)?;
+    frequencies(&crossing, write);
+    let position = crossing.positions();
+    write(format!(
+        "path: from {} to {} m at {} m/s, the bridge from 0 to {} m",
+        position[0],
+        position[position.len() - 1],
+        crossing.car.speed,
+        crossing.beam.span
+    ));
+    write("largest stable step:".to_owned());
+    for integrator in Integrator::ALL {
+        let mut trial = crossing.clone();
+        trial.integrator = integrator;
+        let given = trial.time_step;
+        trial.time_step = given.max(1.0);
+        let largest = largest_stable_step(&trial);
+        let bound = if largest >= trial.time_step {
+            format!("over {} s", trial.time_step)
+        } else {
+            format!("{largest} s")
+        };
+        let mark = match (integrator == crossing.integrator, largest >= given) {
+            (true, true) => format!("  <- given: {given} s"),
+            (true, false) => format!("  <- given: {given} s, NOT STABLE"),
+            (false, _) => String::new(),
+        };
+        write(format!("  {:<17} {bound}{mark}", integrator.name()));
+    }
+    let (times, quantities) = (crossing.times().len(), spec.record.len());
+    let bytes = match spec.precision {
+        Precision::F64 => 8,
+        Precision::F32 => 4,
+    };
+    let (band, block) = band_layout(times, quantities, bytes);
+    write(format!(
+        "recording: {quantities} quantities at {times} times, blocks of {block} points, bands of {band}"
+    ));
+    if let Some(points) = points {
+        let steps = points as f64 * (crossing.steps + 1) as f64;
+        let seconds = steps / POINT_STEPS_PER_SECOND;
+        let held = points.next_multiple_of(LANES).min(band) * times * quantities * 8;
+        write(format!(
+            "  file: about {}",
+            size(points * times * quantities * bytes)
+        ));
+        write(format!(
+            "  work: {steps:.3e} point-steps, some {seconds:.2} s of one core; memory: some {}",
+            size(3 * held)
+        ));
+    }
+    // Last, so that all of the above is seen before the verdict.
+    scenario.crossing().map(drop)
+}
+
+fn frequencies(crossing: &Crossing, write: &mut impl FnMut(String)) {
+    let hertz = |omega: f64| omega / (2.0 * std::f64::consts::PI);
+    write("bridge:".to_owned());
+    for mode in 1..=crossing.beam.modes.min(10) {
+        let omega = crossing.beam.frequency(mode);
+        write(format!(
+            "  mode {mode:>2}: {:>10.4} Hz, {omega:>10.4} rad/s, damping ratio {}",
+            hertz(omega),
+            crossing.beam.damping_ratio
+        ));
+    }
+    if crossing.beam.modes > 10 {
+        let omega = crossing.beam.frequency(crossing.beam.modes);
+        write(format!(
+            "  mode {:>2}: {:>10.4} Hz, {omega:>10.4} rad/s",
+            crossing.beam.modes,
+            hertz(omega)
+        ));
+    }
+    let car = &crossing.car;
+    let body = (car.suspension_stiffness / car.body_mass).sqrt();
+    let wheel = ((car.suspension_stiffness + car.tyre_stiffness) / car.wheel_mass).sqrt();
+    write(format!(
+        "vehicle: body on its suspension {:.4} Hz, wheel between suspension and tyre {:.4} Hz",
+        hertz(body),
+        hertz(wheel)
+    ));
+    let sag = crossing.weight() / car.tyre_stiffness;
+    write(format!(
+        "  weight {:.1} N, static deflection of the tyre {:.4} m",
+        crossing.weight(),
+        sag
+    ));
+}
+
+/// Bytes for people.
+fn size(bytes: usize) -> String {
+    let bytes = bytes as f64;
+    match bytes {
+        b if b < 1e6 => format!("{:.1} kB", b / 1e3),
+        b if b < 1e9 => format!("{:.1} MB", b / 1e6),
+        b => format!("{:.2} GB", b / 1e9),
+    }
+}

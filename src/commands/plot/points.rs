@@ -1,0 +1,134 @@
+//! Figures of a points file: samples of the irregularity and their periodogram.
+
+use super::{Axis, Image, page};
+use crate::cli;
+use crate::commands::{Context, bad_file, excite};
+use crate::files::points::{PointsReader, ReadHeader};
+use crate::plot::{IrregularitySamples, Periodogram, Spectrum};
+use crate::scenario::Scenario;
+use crate::{BadInput, Result};
+
+/// Samples that are drawn.
+const DRAWN: usize = 3;
+/// Samples that a periodogram is averaged over, at most.
+const AVERAGED: usize = 4096;
+
+/// Every so-and-so-th row of the component, at most `most`.
+fn rows(args: &cli::Plot, reader: &PointsReader, most: usize) -> Result<Vec<(u32, Vec<f64>)>> {
+    let header = reader.header();
+    let component = match &args.quantity {
+        None => 0,
+        Some(name) => header
+            .components
+            .iter()
+            .position(|c| c == name)
+            .ok_or_else(|| {
+                BadInput::new(
+                    "--quantity",
+                    "",
+                    format!("one of {}", header.components.join(", ")),
+                    name,
+                )
+            })?,
+    };
+    let every = (header.count as usize).div_ceil(most).max(1);
+    let mut kept = Vec::new();
+    for batch in reader.batches(0..header.count, 256)? {
+        let batch = batch?;
+        for (k, row) in batch.irregularity[component]
+            .chunks_exact(header.positions)
+            .enumerate()
+        {
+            let point = batch.first_point + k as u32;
+            if (point as usize).is_multiple_of(every) && kept.len() < most {
+                kept.push((point, row.to_vec()));
+            }
+        }
+    }
+    Ok(kept)
+}
+
+fn remark(header: &ReadHeader) -> String {
+    format!("{} points", header.count)
+}
+
+pub(super) fn samples(args: &cli::Plot) -> Result<Image> {
+    let reader = PointsReader::open(&args.input)?;
+    let header = reader.header();
+    let kept = rows(args, &reader, DRAWN)?;
+    let named: Vec<(String, &[f64])> = kept
+        .iter()
+        .map(|(point, row)| (format!("point {point}"), row.as_slice()))
+        .collect();
+    let axis = Axis {
+        name: "Irregularity".to_owned(),
+        symbol: "η".to_owned(),
+        unit: "m".to_owned(),
+    };
+    let page = page(
+        "Samples of the irregularity".to_owned(),
+        header.provenance.as_ref(),
+        &[remark(header)],
+    );
+    IrregularitySamples {
+        label: axis.label(),
+        position_start: header.position_start,
+        position_step: header.position_step,
+        samples: &named,
+    }
+    .draw(&page)
+}
+
+pub(super) fn periodogram(context: &Context, args: &cli::Plot) -> Result<Image> {
+    let reader = PointsReader::open(&args.input)?;
+    let header = reader.header();
+    let no_target = |found: &str| {
+        bad_file(
+            &args.input,
+            "",
+            "points of a scenario with a spectrum, the periodogram's target",
+            found,
+        )
+    };
+    let text = header
+        .provenance
+        .as_ref()
+        .and_then(|p| p.scenario.as_deref());
+    let text = text.ok_or_else(|| no_target("points without a scenario"))?;
+    let name = format!("{} (its scenario)", args.input.display());
+    let scenario = Scenario::from_text(name, text)?;
+    let spec = scenario.irregularity()?;
+    let (Some(spectrum), Some(band)) = (&spec.spectrum, &spec.wavenumber) else {
+        return Err(no_target("a deterministic irregularity").into());
+    };
+    let spectrum = excite::read_spectrum(context, &scenario, spectrum, band.max)?;
+    let kept = rows(args, &reader, AVERAGED)?;
+    let samples: Vec<&[f64]> = kept.iter().map(|(_, row)| row.as_slice()).collect();
+    let weights: Vec<f64> = kept
+        .iter()
+        .map(|(point, _)| header.probability[*point as usize])
+        .collect();
+    let target = |wavenumber: f64| {
+        if wavenumber <= band.max {
+            spectrum.density(wavenumber)
+        } else {
+            0.0
+        }
+    };
+    let page = page(
+        "Periodogram of the samples and target spectrum".to_owned(),
+        header.provenance.as_ref(),
+        &[format!(
+            "{} of {} points averaged",
+            kept.len(),
+            header.count
+        )],
+    );
+    let step = band.max / f64::from(band.count);
+    Spectrum {
+        periodogram: &Periodogram::estimate(&samples, &weights, header.position_step)?,
+        target: &target,
+        wavenumbers: (0.5 * step, band.max),
+    }
+    .draw(&page)
+}

@@ -1,0 +1,146 @@
+//! `dpim reliability`: first passage of every limit of the scenario.
+
+use super::Context;
+use super::responses::{self, Source};
+use crate::Result;
+use crate::cli;
+use crate::files::recording::{Axis, Recordings};
+use crate::files::tables::{DensityWriter, ReliabilityRow, ReliabilityWriter, Units};
+use crate::files::{Kind, OutputFile, Provenance};
+use crate::reliability::{Limit, LimitResult, Method, Options, first_passage};
+use crate::scenario::{ReliabilitySpec, Scenario};
+
+pub(super) fn run(context: &Context, args: &cli::Reliability) -> Result<()> {
+    let (recordings, scenario) = responses::open(context, &args.recordings, &args.scenario)?;
+    let spec = scenario.reliability()?;
+    let limits = limits(&recordings, &scenario, &spec)?;
+    let options = Options {
+        smoothing: spec.smoothing.build(),
+        confidence: spec.confidence,
+        points_per_time: scenario.density()?.points_per_time as usize,
+    };
+    let stamp = |kind| {
+        let inputs = responses::inputs(&recordings);
+        Provenance::stamp(
+            kind,
+            Some(scenario.text()),
+            responses::seed(&recordings),
+            &inputs,
+            &[],
+        )
+    };
+    let units: Units = limits
+        .iter()
+        .map(|limit| {
+            (
+                limit.name.clone(),
+                recordings.quantities()[limit.quantity].unit.clone(),
+            )
+        })
+        .collect();
+    let clobber = !args.output.no_clobber;
+    let output = OutputFile::create(&args.output.output, clobber)?;
+    let mut table = ReliabilityWriter::create(output, &units, &stamp(Kind::Reliability))?;
+    let mut extremes = match &args.extremes {
+        Some(path) => {
+            let output = OutputFile::create(path, clobber)?;
+            Some(DensityWriter::create(
+                output,
+                &units,
+                &stamp(Kind::Extremes),
+            )?)
+        }
+        None => None,
+    };
+    let source = Source {
+        recordings: &recordings,
+        times: recordings.times(),
+    };
+    let results = first_passage(&source, &limits, options)?;
+    for (limit, result) in limits.iter().zip(&results) {
+        append(&mut table, limit, result, recordings.times())?;
+        if let (Some(table), Some(curve), Some(end)) =
+            (&mut extremes, &result.extreme, recordings.times().last())
+        {
+            let nodes: Vec<f64> = (0..curve.nodes.count)
+                .map(|j| curve.nodes.value(j))
+                .collect();
+            table.append(&limit.name, *end, &nodes, &curve.density, &curve.cumulative)?;
+        }
+        summary(context, limit, result);
+    }
+    if let Some(extremes) = extremes {
+        extremes.finish()?;
+    }
+    table.finish()
+}
+
+fn limits(
+    recordings: &Recordings,
+    scenario: &Scenario,
+    spec: &ReliabilitySpec,
+) -> Result<Vec<Limit>> {
+    let over_time: Vec<&str> = recordings
+        .quantities()
+        .iter()
+        .filter(|q| q.axis == Axis::Time)
+        .map(|q| q.name.as_str())
+        .collect();
+    let mut limits = Vec::new();
+    for (number, limit) in spec.limit.iter().enumerate() {
+        let key = format!("reliability.limit.{number}.quantity");
+        let known = over_time.contains(&limit.quantity.as_str());
+        let Some(quantity) = recordings.quantity(&limit.quantity).filter(|_| known) else {
+            let remedy = "record it (simulation.record) or take the limit out";
+            return Err(scenario
+                .unknown_quantity(&key, &limit.quantity, &over_time)
+                .remedy(remedy)
+                .into());
+        };
+        limits.push(Limit {
+            name: limit.name.clone(),
+            quantity,
+            side: limit.kind.build(),
+            threshold: limit.threshold,
+        });
+    }
+    Ok(limits)
+}
+
+fn append(
+    table: &mut ReliabilityWriter,
+    limit: &Limit,
+    result: &LimitResult,
+    times: &[f64],
+) -> Result<()> {
+    for (method, estimates) in Method::ALL.iter().zip(&result.estimates) {
+        for (time, estimate) in times.iter().zip(estimates) {
+            table.append(&ReliabilityRow {
+                limit: limit.name.clone(),
+                method: method.name().to_owned(),
+                time: *time,
+                reliability: estimate.reliability,
+                failure_probability: estimate.failure,
+                lower: estimate.lower,
+                upper: estimate.upper,
+                smoothing_width: estimate.width,
+            })?;
+        }
+    }
+    Ok(())
+}
+
+fn summary(context: &Context, limit: &Limit, result: &LimitResult) {
+    for (method, estimates) in Method::ALL.iter().zip(&result.estimates) {
+        if let Some(last) = estimates.last() {
+            context.detail(format!(
+                "{}: P_f = {:.4e} ({:.4e} to {:.4e}) by {}",
+                limit.name,
+                last.failure,
+                last.lower,
+                last.upper,
+                method.name()
+            ));
+        }
+    }
+}

@@ -1,0 +1,313 @@
+//! `dpim simulate`: one deterministic run a point, in lockstep, band by band.
+
+use super::Context;
+use crate::cli;
+use crate::ensemble::{Batch, Divergence, LANES, Strip, WheelPath};
+use crate::files::points::{PointsReader, ReadBatch};
+use crate::files::recording::{
+    self, Axis, Band, QuantityHeader, RecordingHeader, RecordingWriter, band_layout,
+};
+use crate::files::{Kind, OutputFile, Provenance};
+use crate::quantity::Quantity;
+use crate::scenario::{Compression, Precision, Scenario, SimulationSpec};
+use crate::system::{Crossing, CrossingTables};
+use crate::{BadInput, Error, Result, interrupt};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+
+/// The irregularity that a quarter car runs on.
+const COMPONENT: &str = "vertical";
+
+pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
+    let scenario = args.scenario.load()?;
+    let simulation = scenario.simulation()?;
+    let (crossing, quantities) = scenario.crossing()?;
+    let end = crossing.positions().last().copied().unwrap_or(0.0);
+    if end <= 0.0 {
+        context.note(format!(
+            "the run ends {:.3} m before the bridge: simulation.duration is too short for vehicle.approach",
+            -end
+        ));
+    }
+    let reader = PointsReader::open(&args.points)?;
+    let range = checked_range(args, reader.header().count)?;
+    let component = component(args, &reader)?;
+    let path = wheel_path(args, &crossing, &reader)?;
+    let header = header(&scenario, &simulation, &quantities, &reader, &range, args);
+    let output = OutputFile::create(&args.output.output, !args.output.no_clobber)?;
+    let writer = RecordingWriter::create(output, &header)?;
+    let run = Run {
+        context,
+        tables: crossing.tables(&quantities),
+        times: crossing.times(),
+        path,
+        reader,
+        component,
+        range,
+        bytes: header.precision.bytes(),
+    };
+    run.execute(writer)
+}
+
+fn checked_range(args: &cli::Simulate, count: u32) -> Result<Range<u32>> {
+    let range = args.range.clone().unwrap_or(0..count);
+    if range.end > count {
+        let found = format!("{}..{}", range.start, range.end);
+        let expected = format!(
+            "a range within the {count} points of {}",
+            args.points.display()
+        );
+        return Err(BadInput::new("--points", "", expected, found).into());
+    }
+    Ok(range)
+}
+
+fn component(args: &cli::Simulate, reader: &PointsReader) -> Result<usize> {
+    let components = &reader.header().components;
+    components
+        .iter()
+        .position(|name| name == COMPONENT)
+        .ok_or_else(|| {
+            let found = components.join(", ");
+            super::bad_file(
+                &args.points,
+                COMPONENT,
+                "the irregularity's column, a list of heights (m)",
+                format!("only {found}"),
+            )
+            .into()
+        })
+}
+
+fn wheel_path(
+    args: &cli::Simulate,
+    crossing: &Crossing,
+    reader: &PointsReader,
+) -> Result<WheelPath> {
+    let header = reader.header();
+    let positions = crossing.positions();
+    let (start, step, count) = (
+        header.position_start,
+        header.position_step,
+        header.positions,
+    );
+    WheelPath::new(&positions, start, step, count).ok_or_else(|| {
+        let last = positions.last().copied().unwrap_or(0.0);
+        let end = start + (count as f64 - 1.0) * step;
+        super::bad_file(
+            &args.points,
+            COMPONENT,
+            format!(
+                "positions (four at least) that cover the wheel's path from {} to {last} m",
+                positions[0]
+            ),
+            format!("{count} from {start} to {end} m"),
+        )
+        .remedy("set irregularity.start and irregularity.length, or shorten simulation.duration")
+        .into()
+    })
+}
+
+fn header(
+    scenario: &Scenario,
+    simulation: &SimulationSpec,
+    quantities: &[Quantity],
+    reader: &PointsReader,
+    range: &Range<u32>,
+    args: &cli::Simulate,
+) -> RecordingHeader {
+    let points = reader.header();
+    let stamp = points.provenance.as_ref();
+    let options: Vec<String> = args
+        .range
+        .iter()
+        .map(|r| format!("points {}..{}", r.start, r.end))
+        .collect();
+    RecordingHeader {
+        quantities: quantities
+            .iter()
+            .map(|quantity| QuantityHeader {
+                name: quantity.name(),
+                unit: quantity.unit().to_owned(),
+                description: quantity.description(),
+                symbol: quantity.symbol(),
+                axis: Axis::Time,
+            })
+            .collect(),
+        weights: points.weights,
+        points_total: points.count,
+        first_point: range.start,
+        count: range.end - range.start,
+        provenance: Provenance::stamp(
+            Kind::Recording,
+            Some(scenario.text()),
+            stamp.and_then(|s| s.seed),
+            &[stamp.map(|s| s.identity.clone()).unwrap_or_default()],
+            &options,
+        ),
+        compression: match simulation.compression {
+            Compression::None => recording::Compression::None,
+            Compression::Zstd => recording::Compression::Zstd,
+            Compression::Lz4 => recording::Compression::Lz4,
+        },
+        precision: match simulation.precision {
+            Precision::F64 => recording::Precision::F64,
+            Precision::F32 => recording::Precision::F32,
+        },
+    }
+}
+
+/// Everything but the output.
+struct Run<'a> {
+    context: &'a Context,
+    tables: CrossingTables,
+    times: Vec<f64>,
+    path: WheelPath,
+    reader: PointsReader,
+    component: usize,
+    range: Range<u32>,
+    bytes: usize,
+}
+
+/// A band under way.
+struct Filled {
+    points: Range<u32>,
+    values: Vec<f64>,
+}
+
+impl Run<'_> {
+    /// Rows of a point: times and quantities.
+    fn rows(&self) -> usize {
+        self.times.len() * self.tables.outputs.len()
+    }
+
+    /// Reads on one thread, steps on all, writes on another.
+    fn execute(&self, writer: RecordingWriter) -> Result<()> {
+        let (band, block) = band_layout(self.times.len(), self.tables.outputs.len(), self.bytes);
+        let bar = self.context.progress("simulate", self.range.len() as u64);
+        std::thread::scope(|scope| {
+            let (read, batches) = sync_channel::<Result<ReadBatch>>(1);
+            let (used, spare_batches) = sync_channel::<ReadBatch>(2);
+            scope.spawn(move || self.read(block, &read, &spare_batches));
+            let (full, bands) = sync_channel::<Filled>(1);
+            let (emptied, spare_bands) = sync_channel::<Vec<f64>>(2);
+            let written = scope.spawn(move || self.write(writer, block, bands, &emptied));
+            let mut stepped: Result<()> = Ok(());
+            for first in self.range.clone().step_by(band) {
+                let points = first..self.range.end.min(first.saturating_add(band as u32));
+                let mut values = spare_bands.try_recv().unwrap_or_default();
+                values.resize(points.len() * self.rows(), 0.0);
+                stepped = values
+                    .chunks_mut(block * self.rows())
+                    .try_for_each(|values| {
+                        interrupt::check()?;
+                        let batch = batches.recv().unwrap_or(Err(Error::Interrupted))?;
+                        self.step(&batch, values)?;
+                        bar.inc(batch.count as u64);
+                        let _ = used.send(batch);
+                        Ok(())
+                    });
+                if stepped.is_err() || full.send(Filled { points, values }).is_err() {
+                    break;
+                }
+            }
+            drop((batches, used));
+            bar.finish_and_clear();
+            let complete = stepped.is_ok();
+            drop(full);
+            let writer = written
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            stepped?;
+            let writer = writer?;
+            if complete { writer.finish() } else { Ok(()) }
+        })
+    }
+
+    fn read(
+        &self,
+        block: usize,
+        full: &SyncSender<Result<ReadBatch>>,
+        spare: &Receiver<ReadBatch>,
+    ) {
+        let mut batches = match self.reader.batches(self.range.clone(), block) {
+            Ok(batches) => batches,
+            Err(error) => {
+                let _ = full.send(Err(error));
+                return;
+            }
+        };
+        loop {
+            let mut batch = spare.try_recv().unwrap_or_default();
+            let message = match batches.read_into(&mut batch) {
+                Ok(true) => Ok(batch),
+                Ok(false) => return,
+                Err(error) => Err(error),
+            };
+            if full.send(message).is_err() {
+                return;
+            }
+        }
+    }
+
+    /// Writes bands as they come and gives the writer back, for the end.
+    fn write(
+        &self,
+        mut writer: RecordingWriter,
+        block: usize,
+        bands: Receiver<Filled>,
+        emptied: &SyncSender<Vec<f64>>,
+    ) -> Result<RecordingWriter> {
+        let probability = &self.reader.header().probability;
+        for Filled { points, values } in bands {
+            writer.write_band(&Band {
+                first_point: points.start,
+                block,
+                times: &self.times,
+                probability: &probability[points.start as usize..points.end as usize],
+                values: &values,
+                point_values: &[],
+            })?;
+            let _ = emptied.send(values);
+        }
+        Ok(writer)
+    }
+
+    /// One block: `[time][quantity][point]` of its points.
+    fn step(&self, batch: &ReadBatch, values: &mut [f64]) -> Result<()> {
+        let positions = self.reader.header().positions;
+        let rows = batch.irregularity[self.component].par_chunks(LANES * positions);
+        let outcomes: Vec<Result<(), Divergence>> = Strip::cut(values, batch.count)
+            .into_par_iter()
+            .zip(rows)
+            .map_init(
+                || Batch::new(&self.tables),
+                |lanes, (mut strip, rows)| {
+                    lanes.run(
+                        |steps, out| self.path.fill(rows, positions, steps, out),
+                        &mut strip,
+                    )
+                },
+            )
+            .collect();
+        for (number, outcome) in outcomes.into_iter().enumerate() {
+            outcome.map_err(|divergence| self.diverged(batch, number, divergence))?;
+        }
+        Ok(())
+    }
+
+    fn diverged(&self, batch: &ReadBatch, number: usize, divergence: Divergence) -> Error {
+        let crossing = &self.tables.crossing;
+        let point = batch.first_point as usize + number * LANES + divergence.lane;
+        let reason = if crossing.car.is_nonlinear() {
+            "the time step is likely too long for the nonlinear suspension: make simulation.time_step smaller"
+        } else {
+            "the irregularity is likely far too large: look at the points file"
+        };
+        Error::Numerical(format!(
+            "point {point}: the response grows without bound, beyond 1000 km at t = {:.6} s; {reason}",
+            divergence.step as f64 * crossing.time_step
+        ))
+    }
+}

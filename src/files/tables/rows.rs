@@ -1,0 +1,126 @@
+//! Rows as plain structs.
+
+/// The probabilities of the quantiles q001 ... q999 of a row of moments.
+pub const QUANTILES: [f64; 9] = [0.001, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999];
+
+/// Moments and quantiles of a quantity at a time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MomentsRow {
+    /// The quantity.
+    pub quantity: String,
+    /// s
+    pub time: f64,
+    /// Weighted mean, in the quantity's unit.
+    pub mean: f64,
+    /// Weighted standard deviation, in the quantity's unit.
+    pub std: f64,
+    /// Third central moment over std^3; NaN without spread.
+    pub skewness: f64,
+    /// Fourth central moment over std^4 (3 for a normal); NaN without spread.
+    pub kurtosis: f64,
+    /// The quantiles of [`QUANTILES`], in the quantity's unit.
+    pub quantiles: [f64; 9],
+    /// Standard deviation of the smoothing kernel, in the quantity's unit.
+    pub smoothing_width: f64,
+    /// Effective number of points.
+    pub effective_count: f64,
+}
+
+impl MomentsRow {
+    pub(super) fn numbers(&self) -> [f64; 16] {
+        let mut numbers = [0.0; 16];
+        numbers[..5].copy_from_slice(&[
+            self.time,
+            self.mean,
+            self.std,
+            self.skewness,
+            self.kurtosis,
+        ]);
+        numbers[5..14].copy_from_slice(&self.quantiles);
+        numbers[14..].copy_from_slice(&[self.smoothing_width, self.effective_count]);
+        numbers
+    }
+
+    pub(super) fn from_numbers(quantity: String, numbers: &[f64; 16]) -> MomentsRow {
+        let [
+            time,
+            mean,
+            std,
+            skewness,
+            kurtosis,
+            quantiles @ ..,
+            smoothing_width,
+            effective_count,
+        ] = *numbers;
+        MomentsRow {
+            quantity,
+            time,
+            mean,
+            std,
+            skewness,
+            kurtosis,
+            quantiles,
+            smoothing_width,
+            effective_count,
+        }
+    }
+}
+
+/// Reliability against a limit up to a time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReliabilityRow {
+    /// The limit's name.
+    pub limit: String,
+    /// How the reliability was found.
+    pub method: String,
+    /// s
+    pub time: f64,
+    /// Probability that the limit was not passed up to this time.
+    pub reliability: f64,
+    /// 1 - reliability, without the loss of digits.
+    pub failure_probability: f64,
+    /// Lower confidence bound of the failure probability.
+    pub lower: f64,
+    /// Upper confidence bound of the failure probability.
+    pub upper: f64,
+    /// Standard deviation of the smoothing kernel, in the unit of the limit's quantity; 0 without one.
+    pub smoothing_width: f64,
+}
+
+impl ReliabilityRow {
+    pub(super) fn numbers(&self) -> [f64; 6] {
+        [
+            self.time,
+            self.reliability,
+            self.failure_probability,
+            self.lower,
+            self.upper,
+            self.smoothing_width,
+        ]
+    }
+
+    pub(super) fn from_numbers(
+        limit: String,
+        method: String,
+        numbers: &[f64; 6],
+    ) -> ReliabilityRow {
+        let [
+            time,
+            reliability,
+            failure_probability,
+            lower,
+            upper,
+            smoothing_width,
+        ] = *numbers;
+        ReliabilityRow {
+            limit,
+            method,
+            time,
+            reliability,
+            failure_probability,
+            lower,
+            upper,
+            smoothing_width,
+        }
+    }
+}

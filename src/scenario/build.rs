@@ -1,0 +1,242 @@
+//! From specs, as written, to the built values that the physics sees.
+
+use super::{
+    BridgeSpec, FieldKind, FilterForm, GridKind, InitialState, IntegratorKind, IrregularitySpec,
+    LimitKind, PointsSpec, QuarterCarSpec, RuleKind, Scenario, SecondOrderFilterSpec,
+    SimulationSpec, SmoothingSpec, VehicleSpec,
+};
+use crate::density::{self, Smoothing};
+use crate::integrate::Integrator;
+use crate::irregularity::{self, FieldForm, Grid, SecondOrderFilter};
+use crate::probability::{LatinHypercube, MonteCarlo, PartiallyStratified, PointRule};
+use crate::quantity::{BridgeResponse, Quantity};
+use crate::reliability::Side;
+use crate::system::{self, Beam, BumpStop, Crossing, QuarterCar, Section};
+use crate::{BadInput, Result};
+
+impl PointsSpec {
+    /// The rule for `dimensions` variables. Only a truncation can leave no point.
+    pub fn build(&self, dimensions: usize) -> Box<dyn PointRule> {
+        let (count, seed) = (self.count as usize, self.seed);
+        match self.rule {
+            RuleKind::MonteCarlo => Box::new(MonteCarlo::new(count, dimensions, seed)),
+            RuleKind::LatinHypercube => Box::new(LatinHypercube::new(count, dimensions, seed)),
+            RuleKind::PartiallyStratified => Box::new(PartiallyStratified::new(
+                count,
+                self.truncate_at,
+                dimensions,
+                seed,
+            )),
+        }
+    }
+}
+
+impl SecondOrderFilterSpec {
+    pub fn build(&self) -> SecondOrderFilter {
+        SecondOrderFilter {
+            alpha: self.alpha,
+            beta: self.beta,
+            gamma: self.gamma,
+            form: match self.form {
+                FilterForm::Corrected => irregularity::FilterForm::Corrected,
+                FilterForm::Printed => irregularity::FilterForm::Printed,
+            },
+        }
+    }
+}
+
+impl FieldKind {
+    pub fn build(self) -> FieldForm {
+        match self {
+            FieldKind::Gaussian => FieldForm::Gaussian,
+            FieldKind::RandomPhase => FieldForm::RandomPhase,
+        }
+    }
+}
+
+impl BridgeSpec {
+    pub fn build(&self) -> Beam {
+        Beam {
+            span: self.span,
+            mass_per_length: self.mass_per_length,
+            flexural_rigidity: self.flexural_rigidity,
+            section_modulus: self.section_modulus,
+            damping_ratio: self.damping_ratio,
+            modes: self.modes as usize,
+            sections: self
+                .section
+                .iter()
+                .map(|section| Section {
+                    name: section.name.clone(),
+                    position: section.position,
+                })
+                .collect(),
+        }
+    }
+}
+
+impl QuarterCarSpec {
+    pub fn build(&self) -> QuarterCar {
+        QuarterCar {
+            body_mass: self.body_mass,
+            wheel_mass: self.wheel_mass,
+            suspension_stiffness: self.suspension_stiffness,
+            suspension_damping: self.suspension_damping(),
+            suspension_cubic_stiffness: self.suspension_cubic_stiffness,
+            suspension_quadratic_damping: self.suspension_quadratic_damping,
+            bump_stop: self.bump_stop.as_ref().map(|stop| BumpStop {
+                gap: stop.gap,
+                stiffness: stop.stiffness,
+            }),
+            tyre_stiffness: self.tyre_stiffness,
+            speed: self.speed,
+            approach: self.approach,
+        }
+    }
+}
+
+impl IntegratorKind {
+    pub fn build(self) -> Integrator {
+        match self {
+            IntegratorKind::ExplicitNewmark => Integrator::ExplicitNewmark,
+            IntegratorKind::Newmark => Integrator::Newmark,
+            IntegratorKind::Zhai => Integrator::Zhai,
+            IntegratorKind::Exponential => Integrator::Exponential,
+        }
+    }
+}
+
+impl SmoothingSpec {
+    pub fn build(&self) -> Smoothing {
+        match self {
+            SmoothingSpec::Silverman => Smoothing::Silverman,
+            SmoothingSpec::NormalReference => Smoothing::NormalReference,
+            SmoothingSpec::Factor(spec) => Smoothing::Factor(spec.factor),
+            SmoothingSpec::Fixed(spec) => Smoothing::Fixed(spec.width),
+        }
+    }
+}
+
+impl GridKind {
+    pub fn build(self) -> density::Grid {
+        match self {
+            GridKind::Own => density::Grid::Own,
+            GridKind::Common => density::Grid::Common,
+        }
+    }
+}
+
+impl LimitKind {
+    pub fn build(self) -> Side {
+        match self {
+            LimitKind::Absolute => Side::Absolute,
+            LimitKind::Upper => Side::Upper,
+            LimitKind::Lower => Side::Lower,
+        }
+    }
+}
+
+impl Scenario {
+    /// The positions of the irregularity: from its start, at least over its length.
+    ///
+    /// # Errors
+    /// Fewer than four positions: a cubic runs between them.
+    pub fn irregularity_grid(&self, spec: &IrregularitySpec) -> Result<Grid> {
+        let intervals = spec.length / spec.spacing;
+        // A length that is a multiple of the spacing but for rounding is one.
+        let count = (intervals * (1.0 - 1e-12)).ceil() as usize + 1;
+        if count < 4 {
+            let found = format!(
+                "{count} (length {} m, spacing {} m)",
+                spec.length, spec.spacing
+            );
+            let error = self.bad(
+                "irregularity.spacing",
+                "at least four positions on the length",
+                found,
+            );
+            return Err(error.remedy("make the spacing smaller").into());
+        }
+        Ok(Grid {
+            start: self.irregularity_start(spec)?,
+            spacing: spec.spacing,
+            count,
+        })
+    }
+
+    /// Bridge, vehicle and simulation as one crossing, and the quantities to record.
+    ///
+    /// # Errors
+    /// Names of quantities that the system does not have; stress without a section modulus; a time
+    /// step at which the scheme is not stable.
+    pub fn crossing(&self) -> Result<(Crossing, Vec<Quantity>)> {
+        let simulation = self.simulation()?;
+        let crossing = self.crossing_at_any_step(&simulation)?;
+        let quantities = self.quantities(&crossing.beam, &simulation)?;
+        let largest = system::largest_stable_step(&crossing);
+        if largest < crossing.time_step {
+            let expected = format!(
+                "at most {largest} s, the largest stable step of {}",
+                crossing.integrator.name()
+            );
+            let found = format!("{} s", crossing.time_step);
+            return Err(self
+                .bad("simulation.time_step", expected, found)
+                .remedy("take a smaller step (simulation.record_every thins the recording), fewer modes or another integrator")
+                .into());
+        }
+        Ok((crossing, quantities))
+    }
+
+    /// The crossing, its step not examined.
+    pub fn crossing_at_any_step(&self, simulation: &SimulationSpec) -> Result<Crossing> {
+        let VehicleSpec::QuarterCar(car) = self.vehicle()?;
+        let steps = (simulation.duration / simulation.time_step * (1.0 + 1e-12)).floor();
+        Ok(Crossing {
+            beam: self.bridge()?.build(),
+            car: car.build(),
+            integrator: simulation.integrator.build(),
+            time_step: simulation.time_step,
+            steps: steps as usize,
+            record_every: simulation.record_every as usize,
+            initial_state: match simulation.initial_state {
+                InitialState::Level => system::InitialState::Level,
+                InitialState::Profile => system::InitialState::Profile,
+            },
+            gravity: simulation.gravity,
+        })
+    }
+
+    fn quantities(&self, beam: &Beam, simulation: &SimulationSpec) -> Result<Vec<Quantity>> {
+        let sections: Vec<String> = beam.all_sections().map(|s| s.name).collect();
+        let available = Quantity::available(sections.iter().map(String::as_str));
+        let names: Vec<String> = available.iter().map(Quantity::name).collect();
+        let mut wanted = Vec::new();
+        for name in &simulation.record {
+            let Some(index) = names.iter().position(|n| n == name) else {
+                return Err(self
+                    .unknown_quantity("simulation.record", name, &names)
+                    .into());
+            };
+            let quantity = available[index].clone();
+            let stress = matches!(
+                quantity,
+                Quantity::Bridge {
+                    response: BridgeResponse::Stress,
+                    ..
+                }
+            );
+            if stress && beam.section_modulus.is_none() {
+                return Err(BadInput::new(
+                    self.place("bridge"),
+                    "bridge.section_modulus",
+                    format!("a section modulus (m3), since {name} is recorded"),
+                    "none",
+                )
+                .into());
+            }
+            wanted.push(quantity);
+        }
+        Ok(wanted)
+    }
+}
