@@ -116,6 +116,9 @@ fn simulation(
         crossing.car.speed,
         crossing.beam.span
     ));
+    if let Some(note) = super::simulate::ends_before_the_bridge(&crossing) {
+        write(format!("  note: {note}"));
+    }
     write("largest stable step:".to_owned());
     for integrator in Integrator::ALL {
         let mut trial = crossing.clone();

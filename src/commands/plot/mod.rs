@@ -20,6 +20,7 @@ const SCALE: f64 = 2.0;
 
 pub(super) fn run(context: &Context, args: &cli::Plot) -> Result<()> {
     let format = Format::of(args)?;
+    super::check_distinct(&[&args.input], &[("--output", &args.output.output)])?;
     let kind = identify(&args.input)?;
     let figure = figure(args, kind)?;
     let image = match figure {
