@@ -33,7 +33,12 @@ pub(super) fn run(args: &cli::Check) -> Result<()> {
     if scenario.has("simulation") {
         simulation(&scenario, points, &mut write)?;
     }
-    super::print(&text)
+    super::print(&text)?;
+    // Last, so that all of the above is seen before the verdict.
+    if scenario.has("simulation") {
+        scenario.crossing()?;
+    }
+    Ok(())
 }
 
 /// Points and irregularity; returns the number of points.
@@ -160,8 +165,7 @@ fn simulation(
             size(3 * held)
         ));
     }
-    // Last, so that all of the above is seen before the verdict.
-    scenario.crossing().map(drop)
+    Ok(())
 }
 
 fn frequencies(crossing: &Crossing, write: &mut impl FnMut(String)) {

@@ -4,11 +4,13 @@ use toml_edit::{
     Array, ArrayOfTables, DocumentMut, InlineTable, Item, Key, Table, TableLike, Value,
 };
 
+use super::schema;
 use crate::BadInput;
 
 /// Applies `set`, `key.path=value`, to `document`. The value is TOML; what isn't is text (`--set points.rule=monte-carlo`).
 /// An entry of a list is named by its index, and the index after the last appends. Without a value the key, the table
-/// or the list's entry is removed. Returns the path of what has changed.
+/// or the list's entry is removed; one that is not there may be, so that the same overrides serve all stages. Returns
+/// the path of what has changed.
 pub(super) fn apply(document: &mut DocumentMut, set: &str) -> Result<Vec<String>, BadInput> {
     let Some((key, value)) = set.split_once('=') else {
         return Err(bad("", "key=value", &format!("`{set}`")));
@@ -26,11 +28,11 @@ pub(super) fn apply(document: &mut DocumentMut, set: &str) -> Result<Vec<String>
     };
     let names: Vec<&str> = path.iter().map(String::as_str).collect();
     if value.trim().is_empty() {
-        let changed = remove(document.as_item_mut(), &names).ok_or_else(|| {
-            bad(key, "a key that is there, to remove it", "none")
-                .remedy("write a value after the `=` to set one")
-        })?;
-        return Ok(path[..changed].to_vec());
+        return match remove(document.as_item_mut(), &names) {
+            Some(changed) => Ok(path[..changed].to_vec()),
+            None if schema::knows(&names) => Ok(path),
+            None => Err(bad(key, "a known key, to remove it", "an unknown one")),
+        };
     }
     let value = parse_value(key, value.trim())?;
     set_in_table(document.as_table_mut(), &names, value, false)

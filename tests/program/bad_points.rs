@@ -65,7 +65,7 @@ fn positions() {
     );
     refused(
         |points| points.attributes = r#"{"position_start": 0}"#.to_owned(),
-        "points.parquet: position_step: expected a number above 0 of metres among the file's metadata, found none; \
+        "points.parquet: position_step: expected a positive number of metres among the file's metadata, found none; \
          in pandas: df.attrs[\"position_step\"] = ... before to_parquet",
     );
 }
@@ -127,6 +127,7 @@ fn files_that_are_no_points() {
     assert!(error.error().starts_with(&message), "{}", error.error());
     folder.done("density responses.mcap -o density.parquet");
     let error = folder.run_in_vain("simulate -s scenario.toml density.parquet -o out", 2);
-    let message = "density.parquet: kind: expected `points`, found `density`";
+    let message =
+        "density.parquet: expected a file of kind `points`, found a file of kind `density`";
     assert!(error.error().starts_with(message), "{}", error.error());
 }

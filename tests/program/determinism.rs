@@ -38,7 +38,7 @@ fn chain(threads: u32, options: &str) -> BTreeMap<PathBuf, Vec<u8>> {
 
 #[track_caller]
 fn assert_same(one: &BTreeMap<PathBuf, Vec<u8>>, other: &BTreeMap<PathBuf, Vec<u8>>) {
-    assert_eq!(one.len(), 9);
+    assert_eq!(one.len(), 10);
     for (name, bytes) in one {
         assert!(other[name] == *bytes, "{} differs", name.display());
     }

@@ -5,7 +5,7 @@ use arrow::array::{ArrayRef, Float64Array, ListArray, RecordBatch};
 use arrow::buffer::OffsetBuffer;
 use arrow::datatypes::{DataType, Field, Schema};
 use dpim::files::recording::message::DESCRIPTOR_SET;
-use dpim::files::tables::read_moments;
+use dpim::files::tables::{read_density, read_moments};
 use parquet::arrow::ArrowWriter;
 use parquet::basic::Compression;
 use parquet::file::properties::WriterProperties;
@@ -221,6 +221,15 @@ fn a_recording_of_another_program_goes_through() {
         assert_eq!(mean("a", time), 0.75 * time);
         assert_eq!(mean("b", time), 0.75 - time);
     }
+    // On a common grid both times with a spread have the same nodes.
+    folder.done("density foreign.mcap --set density.grid=common -o common.parquet");
+    let common = read_density(&folder.path("common.parquet")).unwrap();
+    let nodes = |time: f64| {
+        let mut slices = common.slices.iter();
+        let slice = slices.find(|s| s.quantity == "a" && s.time == time);
+        slice.unwrap().value.clone()
+    };
+    assert_eq!(nodes(0.5), nodes(1.0));
     folder.write(
         "limits.toml",
         "[[reliability.limit]]\nname = \"l\"\nquantity = \"a\"\nkind = \"upper\"\nthreshold = 0.9\n",
@@ -233,6 +242,6 @@ fn a_recording_of_another_program_goes_through() {
     folder.done("plot foreign.mcap -o fan.png");
     folder.refuses(
         "reliability foreign.mcap -o out",
-        "the defaults: reliability: missing: reliability and its limits; add a table [reliability]",
+        "the defaults: reliability: missing: first passage of limits; add a table [reliability]",
     );
 }

@@ -96,8 +96,10 @@ fn simulate() {
 #[test]
 fn density_and_reliability() {
     let folder = Folder::with_recording();
-    let fine = "--set density.points_per_time=1000000";
+    let fine = "--set density.points_per_time=50000";
     let line =
         format!("density responses.mcap {fine} -o density.parquet --moments moments.parquet");
     interrupt_twice(&folder, &line, &["density.parquet", "moments.parquet"]);
+    let line = format!("reliability responses.mcap {fine} -o reliability.parquet");
+    interrupt_twice(&folder, &line, &["reliability.parquet"]);
 }

@@ -153,14 +153,23 @@ fn an_override_without_a_value_removes() {
         missing.unwrap_err().to_string(),
         "--set: bridge.span: missing: span (m)"
     );
-    for nothing in ["points.truncate=", "bridge.section.0=", "title.x=", "a="] {
-        let key = nothing.trim_end_matches('=');
+    // What is not there may be removed where it could be.
+    let absent = [
+        "bridge.section=",
+        "bridge.section.0.name=",
+        "irregularity.deterministic.amplitude=",
+    ];
+    assert_eq!(removed(&absent), text);
+    for unknown in [
+        "points.truncate=",
+        "bridge.section.first=",
+        "title.x=",
+        "a=",
+    ] {
+        let key = unknown.trim_end_matches('=');
         assert_eq!(
-            example().set(&sets(&[nothing])).unwrap_err().to_string(),
-            format!(
-                "--set: {key}: expected a key that is there, to remove it, found none; \
-                 write a value after the `=` to set one"
-            )
+            example().set(&sets(&[unknown])).unwrap_err().to_string(),
+            format!("--set: {key}: expected a known key, to remove it, found an unknown one")
         );
     }
 }
