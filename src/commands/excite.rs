@@ -18,7 +18,7 @@ use std::ops::Range;
 use std::sync::mpsc::sync_channel;
 
 /// Points whose variables a thread draws together.
-const PART: usize = 128;
+const PART: usize = 512;
 
 pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
     let scenario = load(args)?;
@@ -111,8 +111,8 @@ fn write(
                     irregularity: &[&group.rows],
                     variables: &[],
                 })?;
-                // The other side has ended when it does not take the memory back.
-                let _ = emptied.send(group.rows);
+                // Memory that finds no room on its way back is let go.
+                let _ = emptied.try_send(group.rows);
             }
             writer.finish()
         });

@@ -205,7 +205,7 @@ impl Run<'_> {
                         let batch = batches.recv().unwrap_or(Err(Error::Interrupted))?;
                         self.step(&batch, values)?;
                         bar.inc(batch.count as u64);
-                        let _ = used.send(batch);
+                        let _ = used.try_send(batch);
                         Ok(())
                     });
                 if stepped.is_err() || full.send(Filled { points, values }).is_err() {
@@ -269,7 +269,7 @@ impl Run<'_> {
                 values: &values,
                 point_values: &[],
             })?;
-            let _ = emptied.send(values);
+            let _ = emptied.try_send(values);
         }
         Ok(writer)
     }
