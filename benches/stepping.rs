@@ -67,7 +67,7 @@ fn stepping(criterion: &mut Criterion<CpuTime>) {
         group.bench_function(format!("quarter-car-10-modes-{steps}"), |bencher| {
             bencher.iter(|| {
                 for block in out.chunks_exact_mut(steps * 2 * LANES) {
-                    let mut strips = Strip::cut(block, LANES);
+                    let mut strips = Strip::cut(block, LANES, LANES);
                     batch
                         .run(
                             |range, rows| {

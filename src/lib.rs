@@ -34,6 +34,7 @@ pub mod files;
 pub mod integrate;
 pub mod interrupt;
 pub mod irregularity;
+mod memory;
 pub mod plot;
 pub mod probability;
 pub mod quantity;

@@ -11,13 +11,15 @@ use crate::files::{Kind, OutputFile, Provenance};
 use crate::quantity::Quantity;
 use crate::scenario::{Compression, Precision, Scenario, SimulationSpec};
 use crate::system::{Crossing, CrossingTables};
-use crate::{BadInput, Error, Result, interrupt};
+use crate::{BadInput, Error, Result, interrupt, memory};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 /// The irregularity that a quarter car runs on.
 const COMPONENT: &str = "vertical";
+/// Points that a thread steps before it writes their rows.
+const GROUP: usize = 8 * LANES;
 
 pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
     super::check_distinct(
@@ -207,8 +209,11 @@ impl Run<'_> {
             let mut stepped: Result<()> = Ok(());
             for first in self.range.clone().step_by(band) {
                 let points = first..self.range.end.min(first.saturating_add(band as u32));
-                let mut values = spare_bands.try_recv().unwrap_or_default();
-                values.resize(points.len() * self.rows(), 0.0);
+                let size = points.len() * self.rows();
+                let mut values = spare_bands
+                    .try_recv()
+                    .unwrap_or_else(|_| memory::zeros(size));
+                values.resize(size, 0.0);
                 stepped = values
                     .chunks_mut(block * self.rows())
                     .try_for_each(|values| {
@@ -216,7 +221,7 @@ impl Run<'_> {
                         let batch = batches.recv().unwrap_or(Err(Error::Interrupted))?;
                         self.step(&batch, values)?;
                         bar.inc(batch.count as u64);
-                        let _ = used.send(batch);
+                        let _ = used.try_send(batch);
                         Ok(())
                     });
                 if stepped.is_err() || full.send(Filled { points, values }).is_err() {
@@ -280,7 +285,6 @@ impl Run<'_> {
                 values: &values,
                 point_values: &[],
             })?;
-            // Never wait for the other side to take the memory back: at the end it does not.
             let _ = emptied.try_send(values);
         }
         Ok(writer)
@@ -289,29 +293,57 @@ impl Run<'_> {
     /// One block: `[time][quantity][point]` of its points.
     fn step(&self, batch: &ReadBatch, values: &mut [f64]) -> Result<()> {
         let positions = self.reader.header().positions;
-        let rows = batch.irregularity[self.component].par_chunks(LANES * positions);
-        let outcomes: Vec<Result<(), Divergence>> = Strip::cut(values, batch.count)
+        let rows = batch.irregularity[self.component].par_chunks(GROUP * positions);
+        let outcomes: Vec<Result<(), (usize, Divergence)>> = Strip::cut(values, batch.count, GROUP)
             .into_par_iter()
             .zip(rows)
             .map_init(
-                || Batch::new(&self.tables),
-                |lanes, (mut strip, rows)| {
-                    lanes.run(
-                        |steps, out| self.path.fill(rows, positions, steps, out),
-                        &mut strip,
-                    )
+                || (Batch::new(&self.tables), Vec::new()),
+                |(lanes, scratch), (mut strip, rows)| {
+                    if interrupt::check().is_err() {
+                        return Ok(());
+                    }
+                    self.step_group(lanes, scratch, rows, &mut strip)
                 },
             )
             .collect();
+        interrupt::check()?;
         for (number, outcome) in outcomes.into_iter().enumerate() {
-            outcome.map_err(|divergence| self.diverged(batch, number, divergence))?;
+            outcome.map_err(|(lane, divergence)| {
+                let point = batch.first_point as usize + number * GROUP + lane;
+                self.diverged(point, divergence)
+            })?;
         }
         Ok(())
     }
 
-    fn diverged(&self, batch: &ReadBatch, number: usize, divergence: Divergence) -> Error {
+    /// A group's batches side by side in memory that the cache holds, then the whole rows at once: a
+    /// block's rows lie a power of two apart, and narrow columns of them would throw each other out.
+    fn step_group(
+        &self,
+        lanes: &mut Batch<'_>,
+        scratch: &mut Vec<f64>,
+        rows: &[f64],
+        strip: &mut Strip<'_>,
+    ) -> Result<(), (usize, Divergence)> {
+        let positions = self.reader.header().positions;
+        let width = strip.width();
+        scratch.resize(self.rows() * width, 0.0);
+        let batches = Strip::cut(scratch, width, LANES).into_iter();
+        for (number, (mut part, rows)) in batches.zip(rows.chunks(LANES * positions)).enumerate() {
+            let fill = |steps, out: &mut [f64]| self.path.fill(rows, positions, steps, out);
+            lanes
+                .run(fill, &mut part)
+                .map_err(|divergence| (number * LANES + divergence.lane, divergence))?;
+        }
+        for (row, values) in scratch.chunks_exact(width).enumerate() {
+            strip.row(row).copy_from_slice(values);
+        }
+        Ok(())
+    }
+
+    fn diverged(&self, point: usize, divergence: Divergence) -> Error {
         let crossing = &self.tables.crossing;
-        let point = batch.first_point as usize + number * LANES + divergence.lane;
         let reason = if crossing.car.is_nonlinear() {
             "the time step is likely too long for the nonlinear suspension: make simulation.time_step smaller"
         } else {

@@ -66,7 +66,7 @@ impl<'a> Batch<'a> {
         }
         let rows = self.tables.crossing.times().len() * self.tables.outputs.len();
         let mut block = vec![0.0; rows * LANES];
-        let mut full = Strip::cut(&mut block, LANES);
+        let mut full = Strip::cut(&mut block, LANES, LANES);
         self.run_full(irregularity, &mut full[0])?;
         drop(full);
         for (row, values) in block.chunks_exact(LANES).enumerate() {

@@ -1,9 +1,8 @@
 //! A block's values `[row][point]`, cut into strips of lanes that threads can fill side by side.
 
-use super::lanes::LANES;
 use std::marker::PhantomData;
 
-/// The columns of one batch in a block's matrix of rows.
+/// Some columns of a block's matrix of rows.
 #[derive(Debug)]
 pub struct Strip<'a> {
     first: *mut f64,
@@ -18,19 +17,19 @@ pub struct Strip<'a> {
 unsafe impl Send for Strip<'_> {}
 
 impl<'a> Strip<'a> {
-    /// Cuts `[rows][points]` into strips of [`LANES`] columns, the last one narrower where the
-    /// points are not a multiple.
-    pub fn cut(block: &'a mut [f64], points: usize) -> Vec<Strip<'a>> {
+    /// Cuts `[rows][points]` into strips of `width` columns, the last one narrower where the points
+    /// are not a multiple.
+    pub fn cut(block: &'a mut [f64], points: usize, width: usize) -> Vec<Strip<'a>> {
         let rows = block.len().checked_div(points).unwrap_or(0);
         let first = block.as_mut_ptr();
         (0..points)
-            .step_by(LANES)
+            .step_by(width)
             .map(|column| Strip {
                 // SAFETY: column < points, so within the first row.
                 first: unsafe { first.add(column) },
                 stride: points,
                 rows,
-                width: LANES.min(points - column),
+                width: width.min(points - column),
                 block: PhantomData,
             })
             .collect()
@@ -52,13 +51,14 @@ impl<'a> Strip<'a> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::LANES;
     use super::*;
 
     #[test]
     fn strips_cover_each_value_once() {
         let (rows, points) = (3, 2 * LANES + 5);
         let mut block = vec![0.0; rows * points];
-        let strips = Strip::cut(&mut block, points);
+        let strips = Strip::cut(&mut block, points, LANES);
         assert_eq!(strips.iter().map(Strip::width).sum::<usize>(), points);
         for (k, mut strip) in strips.into_iter().enumerate() {
             for row in 0..rows {

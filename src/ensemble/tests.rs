@@ -34,7 +34,7 @@ fn run(
     let positions = crossing.positions();
     let records = crossing.times().len();
     let mut block = vec![0.0; records * quantities.len() * LANES];
-    let mut strips = Strip::cut(&mut block, LANES);
+    let mut strips = Strip::cut(&mut block, LANES, LANES);
     Batch::new(&tables)
         .run(
             |steps, rows| {
@@ -309,7 +309,7 @@ fn a_run_without_bound_is_named() {
     };
     let tables = crossing.tables(&[deflection()]);
     let mut block = vec![0.0; 201 * LANES];
-    let mut strips = Strip::cut(&mut block, LANES);
+    let mut strips = Strip::cut(&mut block, LANES, LANES);
     let result = Batch::new(&tables).run(|_, rows| rows.fill(0.0), &mut strips[0]);
     let divergence = result.unwrap_err();
     assert!(

@@ -18,7 +18,7 @@ use std::fmt;
 use std::sync::Arc;
 
 /// Points whose sums are formed together: the same for every point, whatever the band or thread.
-const GROUP: usize = 64;
+const GROUP: usize = 128;
 
 /// Positions x₀ + j δ, j = 0 .. count.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -75,15 +75,17 @@ impl PointRule for LatinHypercube {
     }
 
     fn standard_normals(&self, points: Range<usize>, out: &mut [f64]) {
+        let mut images = vec![0; points.len()];
         let rows = out.chunks_exact_mut(points.len());
         for (dimension, (permutation, row)) in self.permutations.iter().zip(rows).enumerate() {
             let mut generator = stream(self.seed, Purpose::Jitter, dimension);
             // Two 32-bit words a point.
             generator.set_word_pos(2 * points.start as u128);
-            permutation.images(points.clone(), |place, stratum| {
-                let unit = (stratum as f64 + open_unit(generator.next_u64())) / self.count as f64;
-                row[place] = quantile(unit);
-            });
+            permutation.images(points.clone(), &mut images);
+            for (value, stratum) in row.iter_mut().zip(&images) {
+                let unit = open_unit(generator.next_u64());
+                *value = quantile((f64::from(*stratum) + unit) / self.count as f64);
+            }
         }
     }
 }

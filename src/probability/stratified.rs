@@ -72,16 +72,17 @@ impl PointRule for PartiallyStratified {
 
     fn standard_normals(&self, points: Range<usize>, out: &mut [f64]) {
         let width = points.len();
+        let mut images = vec![0; width];
         let subspaces = self.permutations.iter().zip(out.chunks_mut(2 * width));
         for (permutation, rows) in subspaces {
+            permutation.images(points.clone(), &mut images);
             let (first, second) = rows.split_at_mut(width);
-            permutation.images(points.clone(), |place, index| {
-                let [x, y] = self.lattice[index];
-                first[place] = x;
-                if let Some(value) = second.get_mut(place) {
-                    *value = y;
-                }
-            });
+            for (x, image) in first.iter_mut().zip(&images) {
+                *x = self.lattice[*image as usize][0];
+            }
+            for (y, image) in second.iter_mut().zip(&images) {
+                *y = self.lattice[*image as usize][1];
+            }
         }
     }
 }

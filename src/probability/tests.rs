@@ -125,19 +125,20 @@ fn permutations_are_permutations_without_pattern() {
     for n in [1, 2, 3, 10, 984, 5000] {
         let permutation = Permutation::random(n, &mut stream(5, Purpose::Permutation, n));
         let mut seen = vec![false; n];
-        permutation.images(0..n, |_, image| {
-            assert!(!std::mem::replace(&mut seen[image], true))
-        });
+        let mut images = vec![0; n];
+        permutation.images(0..n, &mut images);
+        for image in images {
+            assert!(!std::mem::replace(&mut seen[image as usize], true));
+        }
         assert!(seen.iter().all(|s| *s));
     }
     // Serial correlation of one permutation and correlation between two: within 4.5 standard errors.
     let n = 20_000;
     let values = |k: usize| {
-        let mut v = vec![0.0; n];
-        Permutation::random(n, &mut stream(5, Purpose::Permutation, k)).images(0..n, |p, i| {
-            v[p] = (i as f64 + 0.5) / n as f64 - 0.5;
-        });
-        v
+        let mut images = vec![0; n];
+        Permutation::random(n, &mut stream(5, Purpose::Permutation, k)).images(0..n, &mut images);
+        let centred = |image: u32| (f64::from(image) + 0.5) / n as f64 - 0.5;
+        images.into_iter().map(centred).collect::<Vec<f64>>()
     };
     let bound = 4.5 / 12.0 / (n as f64).sqrt();
     let first = values(0);

@@ -12,7 +12,7 @@ use crate::response::{Block, Responses, effective_count};
 use rayon::prelude::*;
 
 /// Bins over the range of a response or extreme at one time.
-const BINS: f64 = 2048.0;
+const BINS: f64 = 512.0;
 /// Bins that are held at a time (bytes): more times take further passes.
 const MEMORY: usize = 192 << 20;
 
@@ -145,10 +145,10 @@ struct Passage<'a> {
     extreme: Option<Curve>,
 }
 
-/// Bins of one time: responses, those of safe points only, extremes.
+/// Bins of one time: responses, those of failed points only, extremes.
 struct Open {
     responses: Option<Bins>,
-    safe: Option<Bins>,
+    failed: Option<Bins>,
     extremes: Option<Bins>,
 }
 
@@ -207,7 +207,7 @@ impl<'a> Passage<'a> {
             .iter()
             .map(|[responses, extremes]| Open {
                 responses: bins(responses),
-                safe: bins(responses),
+                failed: bins(responses),
                 extremes: bins(extremes),
             })
             .collect();
@@ -228,13 +228,11 @@ impl<'a> Passage<'a> {
         if let Some(bins) = &mut open.responses {
             bins.add(block.values, probability);
         }
-        if let Some(bins) = &mut open.safe {
-            let safe: Vec<f64> = extremes
-                .iter()
-                .zip(probability)
-                .map(|(z, p)| if *z <= level { *p } else { 0.0 })
-                .collect();
-            bins.add(block.values, &safe);
+        if let Some(bins) = &mut open.failed {
+            let all = block.values.iter().zip(extremes).zip(probability);
+            for ((value, _), p) in all.filter(|((_, extreme), _)| **extreme > level) {
+                bins.add(&[*value], &[*p]);
+            }
         }
         if let Some(bins) = &mut open.extremes {
             bins.add(extremes, probability);
@@ -257,8 +255,10 @@ impl<'a> Passage<'a> {
                 _ => counted,
             };
             let response_width = width(&open.responses, responses);
-            let by_absorption = match (&open.safe, response_width) {
-                (Some(bins), Some(width)) => self.inside(bins, width),
+            let by_absorption = match (&open.responses, &open.failed, response_width) {
+                (Some(all), Some(failed), Some(width)) => {
+                    self.inside(all, width) - self.inside(failed, width)
+                }
                 _ => counted,
             };
             let least = self.estimates[2]

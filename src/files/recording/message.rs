@@ -153,10 +153,12 @@ mod tests {
         let mut compiler =
             protox::Compiler::new([concat!(env!("CARGO_MANIFEST_DIR"), "/schemas")]).unwrap();
         compiler.open_file("dpim/sample.proto").unwrap();
-        assert!(
-            compiler.encode_file_descriptor_set() == DESCRIPTOR_SET,
-            "compile the proto anew"
-        );
+        let compiled = compiler.encode_file_descriptor_set();
+        if compiled != DESCRIPTOR_SET {
+            let path = std::env::temp_dir().join("sample.desc");
+            std::fs::write(&path, compiled).unwrap();
+            panic!("copy {} to schemas/dpim/sample.desc", path.display());
+        }
     }
 
     #[test]
