@@ -98,7 +98,7 @@ fn simulate() {
 #[test]
 fn density() {
     let folder = Folder::with_recording();
-    let line = "density responses.mcap --set density.points_per_time=50000 -o density.parquet --moments moments.parquet";
+    let line = "density responses.mcap --set density.points_per_time=20000 -o density.parquet --moments moments.parquet";
     interrupt_often(&folder, line, &["density.parquet", "moments.parquet"]);
 }
 
