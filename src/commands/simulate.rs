@@ -19,7 +19,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 /// The irregularity that a quarter car runs on.
 const COMPONENT: &str = "vertical";
 /// Points that a thread steps before it writes their rows.
-const GROUP: usize = 8 * LANES;
+const GROUP: usize = 6 * LANES;
 
 pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
     let scenario = args.scenario.load()?;
@@ -199,7 +199,9 @@ impl Run<'_> {
             for first in self.range.clone().step_by(band) {
                 let points = first..self.range.end.min(first.saturating_add(band as u32));
                 let size = points.len() * self.rows();
-                let mut values = spare_bands.try_recv().unwrap_or_else(|_| memory::zeros(size));
+                let mut values = spare_bands
+                    .try_recv()
+                    .unwrap_or_else(|_| memory::zeros(size));
                 values.resize(size, 0.0);
                 stepped = values
                     .chunks_mut(block * self.rows())
@@ -286,7 +288,9 @@ impl Run<'_> {
             .zip(rows)
             .map_init(
                 || (Batch::new(&self.tables), Vec::new()),
-                |(lanes, scratch), (mut strip, rows)| self.step_group(lanes, scratch, rows, &mut strip),
+                |(lanes, scratch), (mut strip, rows)| {
+                    self.step_group(lanes, scratch, rows, &mut strip)
+                },
             )
             .collect();
         for (number, outcome) in outcomes.into_iter().enumerate() {

@@ -208,7 +208,7 @@ fn contact<S: Simd, const W: usize, const NONLINEAR: bool>(
     eta: &Row<S, W>,
     vehicle: &Vehicle<S, W>,
 ) -> Forces<S, W> {
-    let share = simd.splat_f64s(tables.crossing.car.wheel_share());
+    let share = simd.splat_f64s(tables.wheel_share);
     let offset = simd.splat_f64s(tables.static_offset[n]);
     let stiffness = simd.splat_f64s(tables.contact_stiffness[n]);
     let weight = simd.splat_f64s(tables.weight);
@@ -316,17 +316,17 @@ impl<S: Simd, const W: usize> Vehicle<S, W> {
         tables: &CrossingTables,
         forces: &Forces<S, W>,
     ) {
-        let car = &tables.crossing.car;
         oscillate::<S, W, H>(
             simd,
             &tables.heave,
             &mut self.heave,
-            1.0 / car.mass(),
+            tables.heave_load,
             &forces.dynamic,
         );
-        let squeeze = -1.0 / car.wheel_mass;
+        let squeeze = tables.travel_load;
         if NONLINEAR {
             // −P/m₂ − N/μ = −(P + N m₂/μ)/m₂.
+            let car = &tables.crossing.car;
             let ratio = simd.splat_f64s(car.wheel_mass / car.reduced_mass());
             let force =
                 each!(simd, j => simd.mul_add_f64s(ratio, forces.suspension[j], forces.dynamic[j]));
@@ -418,14 +418,16 @@ impl<S: Simd, const W: usize> Sample<'_, S, W> {
     }
 
     #[inline(always)]
-    fn bridge(&self, simd: S, terms: &[(usize, usize, f64)], feed: f64) -> Row<S, W> {
+    fn bridge(&self, simd: S, terms: &[Vec<(usize, f64)>; 3], feed: f64) -> Row<S, W> {
         let feed = simd.splat_f64s(feed);
         let mut row = each!(simd, j => simd.mul_f64s(feed, self.forces.contact[j]));
-        for (plane, mode, coefficient) in terms {
-            let x = &self.planes[*plane][*mode];
-            let c = simd.splat_f64s(*coefficient);
-            for j in 0..W {
-                row[j] = simd.mul_add_f64s(c, x[j], row[j]);
+        for (plane, terms) in self.planes.iter().zip(terms) {
+            for (mode, coefficient) in terms {
+                let x = &plane[*mode];
+                let c = simd.splat_f64s(*coefficient);
+                for j in 0..W {
+                    row[j] = simd.mul_add_f64s(c, x[j], row[j]);
+                }
             }
         }
         row

@@ -4,7 +4,7 @@ use crate::integrate::Propagator;
 use pulp::Simd;
 
 /// Points that are stepped together.
-pub const LANES: usize = 16;
+pub const LANES: usize = 24;
 
 /// A row of lanes in `W` vectors.
 pub(super) type Row<S, const W: usize> = [<S as Simd>::f64s; W];

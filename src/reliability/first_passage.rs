@@ -256,7 +256,9 @@ impl<'a> Passage<'a> {
             };
             let response_width = width(&open.responses, responses);
             let by_absorption = match (&open.responses, &open.failed, response_width) {
-                (Some(all), Some(failed), Some(width)) => self.inside(all, width) - self.inside(failed, width),
+                (Some(all), Some(failed), Some(width)) => {
+                    self.inside(all, width) - self.inside(failed, width)
+                }
                 _ => counted,
             };
             let least = self.estimates[2]
