@@ -59,8 +59,8 @@ pub struct ScenarioArgs {
     /// The scenario
     #[arg(short, long, value_name = "SCENARIO.toml")]
     pub scenario: PathBuf,
-    /// Override a key of the scenario; repeatable
-    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    /// Override a key of the scenario, or without a value remove it; repeatable
+    #[arg(long = "set", value_name = "KEY.PATH=[VALUE]")]
     pub sets: Vec<String>,
 }
 
@@ -70,8 +70,8 @@ pub struct OptionalScenarioArgs {
     /// The scenario [default: the one in the recording]
     #[arg(short, long, value_name = "SCENARIO.toml")]
     pub scenario: Option<PathBuf>,
-    /// Override a key of the scenario; repeatable
-    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    /// Override a key of the scenario, or without a value remove it; repeatable
+    #[arg(long = "set", value_name = "KEY.PATH=[VALUE]")]
     pub sets: Vec<String>,
 }
 

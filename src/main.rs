@@ -2,7 +2,8 @@
 
 use clap::Parser;
 use dpim::cli::Cli;
-use dpim::{commands, interrupt};
+use dpim::{Error, commands, interrupt};
+use std::io::ErrorKind;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -10,8 +11,12 @@ fn main() -> ExitCode {
     interrupt::install();
     match commands::run(cli) {
         Ok(()) => ExitCode::SUCCESS,
+        // Whoever reads the output has what they wanted.
+        Err(Error::Io { source, .. }) if source.kind() == ErrorKind::BrokenPipe => {
+            ExitCode::SUCCESS
+        }
         Err(error) => {
-            eprintln!("error: {error}");
+            commands::say(&format!("error: {error}"));
             ExitCode::from(error.exit_code())
         }
     }

@@ -33,7 +33,12 @@ pub(super) fn run(args: &cli::Check) -> Result<()> {
     if scenario.has("simulation") {
         simulation(&scenario, points, &mut write)?;
     }
-    super::print(&text)
+    super::print(&text)?;
+    // Last, so that all of the above is seen before the verdict.
+    if scenario.has("simulation") {
+        scenario.crossing()?;
+    }
+    Ok(())
 }
 
 /// Points and irregularity; returns the number of points.
@@ -116,6 +121,9 @@ fn simulation(
         crossing.car.speed,
         crossing.beam.span
     ));
+    if let Some(note) = super::simulate::ends_before_the_bridge(&crossing) {
+        write(format!("  note: {note}"));
+    }
     write("largest stable step:".to_owned());
     for integrator in Integrator::ALL {
         let mut trial = crossing.clone();
@@ -157,8 +165,7 @@ fn simulation(
             size(3 * held)
         ));
     }
-    // Last, so that all of the above is seen before the verdict.
-    scenario.crossing().map(drop)
+    Ok(())
 }
 
 fn frequencies(crossing: &Crossing, write: &mut impl FnMut(String)) {

@@ -10,6 +10,13 @@ use crate::files::tables::{DensityWriter, MomentsRow, MomentsWriter};
 use crate::files::{Kind, OutputFile, Provenance};
 
 pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
+    let mut outputs = vec![("--output", args.output.output.as_path())];
+    outputs.extend(
+        args.moments
+            .iter()
+            .map(|path| ("--moments", path.as_path())),
+    );
+    super::check_distinct(&args.scenario.inputs(&args.recordings), &outputs)?;
     let (recordings, scenario) = responses::open(context, &args.recordings, &args.scenario)?;
     let spec = scenario.density()?;
     let wanted = responses::chosen(&recordings, &scenario, spec.quantities.as_deref())?;

@@ -21,6 +21,10 @@ use std::sync::mpsc::sync_channel;
 const PART: usize = 512;
 
 pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
+    super::check_distinct(
+        &[&args.scenario.scenario],
+        &[("--output", &args.output.output)],
+    )?;
     let scenario = load(args)?;
     let points = scenario.points()?;
     let spec = scenario.irregularity()?;
@@ -111,7 +115,7 @@ fn write(
                     irregularity: &[&group.rows],
                     variables: &[],
                 })?;
-                // Memory that finds no room on its way back is let go.
+                // Never wait for the other side to take the memory back: at the end it does not.
                 let _ = emptied.try_send(group.rows);
             }
             writer.finish()

@@ -11,6 +11,13 @@ use crate::reliability::{Limit, LimitResult, Method, Options, first_passage};
 use crate::scenario::{ReliabilitySpec, Scenario};
 
 pub(super) fn run(context: &Context, args: &cli::Reliability) -> Result<()> {
+    let mut outputs = vec![("--output", args.output.output.as_path())];
+    outputs.extend(
+        args.extremes
+            .iter()
+            .map(|path| ("--extremes", path.as_path())),
+    );
+    super::check_distinct(&args.scenario.inputs(&args.recordings), &outputs)?;
     let (recordings, scenario) = responses::open(context, &args.recordings, &args.scenario)?;
     let spec = scenario.reliability()?;
     let limits = limits(&recordings, &scenario, &spec)?;
@@ -91,10 +98,10 @@ fn limits(
         let key = format!("reliability.limit.{number}.quantity");
         let known = over_time.contains(&limit.quantity.as_str());
         let Some(quantity) = recordings.quantity(&limit.quantity).filter(|_| known) else {
-            let remedy = "record it (simulation.record) or take the limit out";
+            let expected = format!("a quantity of the recording ({})", over_time.join(", "));
             return Err(scenario
-                .unknown_quantity(&key, &limit.quantity, &over_time)
-                .remedy(remedy)
+                .bad(&key, expected, format!("{:?}", limit.quantity))
+                .remedy("record it (simulation.record) or take the limit out")
                 .into());
         };
         limits.push(Limit {

@@ -6,7 +6,7 @@ use crate::cli::OptionalScenarioArgs;
 use crate::files::recording::{Axis, Recordings};
 use crate::files::tables::Units;
 use crate::response::{Block, Responses};
-use crate::scenario::Scenario;
+use crate::scenario::{Compression, Precision, Scenario, SimulationSpec};
 use std::path::PathBuf;
 
 /// Opens recordings and the scenario that goes with them.
@@ -16,6 +16,7 @@ pub(super) fn open(
     scenario: &OptionalScenarioArgs,
 ) -> Result<(Recordings, Scenario)> {
     let recordings = Recordings::open(paths)?;
+    check_same_simulation(&recordings)?;
     for note in recordings.notes() {
         context.note(note);
     }
@@ -29,6 +30,43 @@ pub(super) fn open(
         .map(|text| (format!("{name} (its scenario)"), text));
     let scenario = scenario.load(embedded)?;
     Ok((recordings, scenario))
+}
+
+/// Refuses parts of one ensemble that were not simulated alike, where their scenarios tell.
+fn check_same_simulation(recordings: &Recordings) -> Result<()> {
+    let mut earlier = None;
+    for member in recordings.members() {
+        let text = member.provenance.and_then(|p| p.scenario.as_deref());
+        let Some(text) = text else { continue };
+        let scenario = Scenario::from_text(member.path.display().to_string(), text)?;
+        // How the values are stored makes no difference.
+        let simulation = scenario.simulation().ok().map(|spec| SimulationSpec {
+            precision: Precision::default(),
+            compression: Compression::default(),
+            ..spec
+        });
+        let tables = (scenario.bridge().ok(), scenario.vehicle().ok(), simulation);
+        let Some((path, known)) = &earlier else {
+            earlier = Some((member.path, tables));
+            continue;
+        };
+        let differs = [
+            ("bridge", tables.0 != known.0),
+            ("vehicle", tables.1 != known.1),
+            ("simulation", tables.2 != known.2),
+        ];
+        if let Some((table, _)) = differs.iter().find(|(_, differs)| *differs) {
+            return Err(super::bad_file(
+                member.path,
+                &format!("[{table}] of its scenario"),
+                format!("the same as in {}", path.display()),
+                "another",
+            )
+            .remedy("name parts of one ensemble only")
+            .into());
+        }
+    }
+    Ok(())
 }
 
 /// The recordings with the times of one kind of quantity.

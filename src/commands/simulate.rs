@@ -22,15 +22,15 @@ const COMPONENT: &str = "vertical";
 const GROUP: usize = 6 * LANES;
 
 pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
+    super::check_distinct(
+        &[&args.scenario.scenario, &args.points],
+        &[("--output", &args.output.output)],
+    )?;
     let scenario = args.scenario.load()?;
     let simulation = scenario.simulation()?;
     let (crossing, quantities) = scenario.crossing()?;
-    let end = crossing.positions().last().copied().unwrap_or(0.0);
-    if end <= 0.0 {
-        context.note(format!(
-            "the run ends {:.3} m before the bridge: simulation.duration is too short for vehicle.approach",
-            -end
-        ));
+    if let Some(note) = ends_before_the_bridge(&crossing) {
+        context.note(note);
     }
     let reader = PointsReader::open(&args.points)?;
     let range = checked_range(args, reader.header().count)?;
@@ -50,6 +50,17 @@ pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
         bytes: header.precision.bytes(),
     };
     run.execute(writer)
+}
+
+/// What is said where the vehicle never gets to the bridge.
+pub(super) fn ends_before_the_bridge(crossing: &Crossing) -> Option<String> {
+    let end = crossing.positions().last().copied().unwrap_or(0.0);
+    (end <= 0.0).then(|| {
+        format!(
+            "the run ends {:.3} m before the bridge: simulation.duration is too short for vehicle.approach",
+            -end
+        )
+    })
 }
 
 fn checked_range(args: &cli::Simulate, count: u32) -> Result<Range<u32>> {
@@ -274,6 +285,7 @@ impl Run<'_> {
                 values: &values,
                 point_values: &[],
             })?;
+            // Never wait for the other side to take the memory back: at the end it does not.
             let _ = emptied.try_send(values);
         }
         Ok(writer)

@@ -14,6 +14,12 @@ use crate::reliability::Side;
 use crate::system::{self, Beam, BumpStop, Crossing, QuarterCar, Section};
 use crate::{BadInput, Result};
 
+/// Positions of an irregularity, at most: rows of more would not fit in memory by the thousand.
+const MOST_POSITIONS: usize = 1_000_000;
+
+/// Time steps of a run, at most: what all points share is kept for each of them.
+const MOST_STEPS: f64 = 1e7;
+
 impl PointsSpec {
     /// The rule for `dimensions` variables. Only a truncation can leave no point.
     pub fn build(&self, dimensions: usize) -> Box<dyn PointRule> {
@@ -140,7 +146,7 @@ impl Scenario {
     /// The positions of the irregularity: from its start, at least over its length.
     ///
     /// # Errors
-    /// Fewer than four positions: a cubic runs between them.
+    /// Fewer than four positions: a cubic runs between them. More than a million.
     pub fn irregularity_grid(&self, spec: &IrregularitySpec) -> Result<Grid> {
         let intervals = spec.length / spec.spacing;
         // A length that is a multiple of the spacing but for rounding is one.
@@ -156,6 +162,15 @@ impl Scenario {
                 found,
             );
             return Err(error.remedy("make the spacing smaller").into());
+        }
+        if count > MOST_POSITIONS {
+            let found = format!(
+                "{count} (length {} m, spacing {} m)",
+                spec.length, spec.spacing
+            );
+            let expected = format!("at most {MOST_POSITIONS} positions on the length");
+            let error = self.bad("irregularity.spacing", expected, found);
+            return Err(error.remedy("make the spacing larger").into());
         }
         Ok(Grid {
             start: self.irregularity_start(spec)?,
@@ -188,10 +203,18 @@ impl Scenario {
         Ok((crossing, quantities))
     }
 
-    /// The crossing, its step not examined.
+    /// The crossing; whether its step is stable is not examined.
+    ///
+    /// # Errors
+    /// A table that is missing or wrong; more than ten million steps.
     pub fn crossing_at_any_step(&self, simulation: &SimulationSpec) -> Result<Crossing> {
         let VehicleSpec::QuarterCar(car) = self.vehicle()?;
         let steps = (simulation.duration / simulation.time_step * (1.0 + 1e-12)).floor();
+        if steps > MOST_STEPS {
+            let expected = format!("at most {MOST_STEPS} steps in simulation.duration");
+            let error = self.bad("simulation.time_step", expected, steps.to_string());
+            return Err(error.remedy("take a larger step").into());
+        }
         Ok(Crossing {
             beam: self.bridge()?.build(),
             car: car.build(),

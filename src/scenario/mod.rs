@@ -33,6 +33,7 @@ mod suggestion;
 mod tests;
 mod vehicle;
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
@@ -77,13 +78,14 @@ trait Table: DeserializeOwned {
 }
 
 impl Scenario {
-    /// Reads the scenario in the file `path` and applies the overrides `sets`, each `key.path=value`.
+    /// Reads the scenario in the file `path` and applies the overrides `sets`, each `key.path=value`, or `key.path=` to
+    /// remove a key.
     ///
     /// # Errors
-    /// A file that can't be read or is no TOML, an override that can't be applied, an unknown table.
+    /// A file that is not there, can't be read or is no TOML, an override that can't be applied, an unknown table.
     pub fn load(path: &Path, sets: &[String]) -> Result<Scenario> {
-        let bytes = std::fs::read(path).map_err(|e| Error::io(path, "can't read", e))?;
         let name = path.display().to_string();
+        let bytes = std::fs::read(path).map_err(|e| unreadable(path, e))?;
         let text = String::from_utf8(bytes)
             .map_err(|_| BadInput::new(&name, "", "UTF-8 text", "other bytes"))?;
         Scenario::parse(name, &text)?.set(sets)
@@ -97,7 +99,7 @@ impl Scenario {
         Scenario::parse(name.into(), text)?.set(&[])
     }
 
-    /// Applies further overrides, each `key.path=value`.
+    /// Applies further overrides, each `key.path=value` or `key.path=`.
     ///
     /// # Errors
     /// An override that can't be applied, an unknown table.
@@ -206,6 +208,7 @@ impl Scenario {
         if let (Some(points), Some(irregularity)) = (&all.points, &all.irregularity) {
             self.check_truncation(points, irregularity)?;
         }
+        self.check_recorded(&all)?;
         Ok(all)
     }
 
@@ -232,4 +235,14 @@ impl Scenario {
         table.check(self)?;
         Ok(Some(table))
     }
+}
+
+/// The error of a scenario that can't be read: bad input where there is no such file.
+fn unreadable(path: &Path, error: std::io::Error) -> Error {
+    let found = match error.kind() {
+        ErrorKind::NotFound => "no such file",
+        ErrorKind::IsADirectory => "a folder",
+        _ => return Error::io(path, "can't read", error),
+    };
+    BadInput::new(path.display().to_string(), "", "a scenario (TOML)", found).into()
 }

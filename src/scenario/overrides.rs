@@ -1,13 +1,16 @@
-//! Overrides: `--set key.path=value` into the scenario's document, its comments kept.
+//! Overrides: `--set key.path=value` into the scenario's document, its comments kept; `--set key.path=` takes a key out.
 
 use toml_edit::{
     Array, ArrayOfTables, DocumentMut, InlineTable, Item, Key, Table, TableLike, Value,
 };
 
+use super::schema;
 use crate::BadInput;
 
 /// Applies `set`, `key.path=value`, to `document`. The value is TOML; what isn't is text (`--set points.rule=monte-carlo`).
-/// An entry of a list is named by its index, and the index after the last appends. Returns the key's path.
+/// An entry of a list is named by its index, and the index after the last appends. Without a value the key, the table
+/// or the list's entry is removed; one that is not there may be, so that the same overrides serve all stages. Returns
+/// the path of what has changed.
 pub(super) fn apply(document: &mut DocumentMut, set: &str) -> Result<Vec<String>, BadInput> {
     let Some((key, value)) = set.split_once('=') else {
         return Err(bad("", "key=value", &format!("`{set}`")));
@@ -23,11 +26,52 @@ pub(super) fn apply(document: &mut DocumentMut, set: &str) -> Result<Vec<String>
             ));
         }
     };
-    let value = parse_value(key, value.trim())?;
     let names: Vec<&str> = path.iter().map(String::as_str).collect();
+    if value.trim().is_empty() {
+        return match remove(document.as_item_mut(), &names) {
+            Some(changed) => Ok(path[..changed].to_vec()),
+            None if schema::knows(&names) => Ok(path),
+            None => Err(bad(key, "a known key, to remove it", "an unknown one")),
+        };
+    }
+    let value = parse_value(key, value.trim())?;
     set_in_table(document.as_table_mut(), &names, value, false)
         .map_err(|(expected, found)| bad(key, &expected, &found))?;
     Ok(path)
+}
+
+/// Removes what is at `path` (one name at least) below `item`. Returns the length of the changed path: that of the whole
+/// list where an entry is taken out of one, since those after it move; `None` where there is nothing at `path`.
+fn remove(item: &mut Item, path: &[&str]) -> Option<usize> {
+    let (name, rest) = path.split_first().expect("a key has a name");
+    if !rest.is_empty() {
+        return remove(entry(item, name)?, rest).map(|changed| changed + 1);
+    }
+    match item {
+        Item::ArrayOfTables(tables) => {
+            let index = name.parse().ok().filter(|index| *index < tables.len())?;
+            tables.remove(index);
+            Some(0)
+        }
+        Item::Value(Value::Array(array)) => {
+            let index = name.parse().ok().filter(|index| *index < array.len())?;
+            array.remove(index);
+            Some(0)
+        }
+        other => {
+            other.as_table_like_mut()?.remove(name)?;
+            Some(1)
+        }
+    }
+}
+
+/// What is called `name` in a table or list, if it is there.
+fn entry<'a>(item: &'a mut Item, name: &str) -> Option<&'a mut Item> {
+    if item.is_array() || item.is_array_of_tables() {
+        item.get_mut(name.parse::<usize>().ok()?)
+    } else {
+        item.as_table_like_mut()?.get_mut(name)
+    }
 }
 
 fn bad(key: &str, expected: &str, found: &str) -> BadInput {
@@ -40,7 +84,6 @@ fn parse_value(key: &str, text: &str) -> Result<Value, BadInput> {
             value.decor_mut().clear();
             Ok(value)
         }
-        Err(_) if text.is_empty() => Err(bad(key, "a value after the `=`", "nothing")),
         Err(_) if text.starts_with(['"', '\'', '[', '{']) => {
             Err(bad(key, "a TOML value", &format!("`{text}`")))
         }

@@ -49,6 +49,22 @@ pub(super) fn shared() -> &'static Value {
     &SCHEMA
 }
 
+/// Whether a scenario may have a key at `path`, whatever the kinds of its tables are.
+pub(super) fn knows(path: &[&str]) -> bool {
+    fn below(schema: &Value, path: &[&str]) -> bool {
+        let Some((name, rest)) = path.split_first() else {
+            return true;
+        };
+        let is_entry = name.parse::<usize>().is_ok() && schema["items"].is_object();
+        let alternatives = schema["oneOf"].as_array().into_iter().flatten();
+        let property = schema["properties"].get(name);
+        property.is_some_and(|schema| below(schema, rest))
+            || (is_entry && below(&schema["items"], rest))
+            || alternatives.into_iter().any(|schema| below(schema, path))
+    }
+    below(shared(), path)
+}
+
 fn generate() -> Value {
     let settings = SchemaSettings::draft2020_12()
         .with(|s| s.inline_subschemas = true)

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Scenario, Table};
+use super::{Scenario, ScenarioSpec, Table};
 use crate::BadInput;
 
 /// How the equations of motion are integrated, and what of it is kept.
@@ -107,6 +107,34 @@ impl Table for SimulationSpec {
                 format!("at least simulation.time_step = {:?} (s)", self.time_step),
                 format!("{:?}", self.duration),
             ));
+        }
+        Ok(())
+    }
+}
+
+impl Scenario {
+    /// Checks that what densities and limits are asked for is recorded.
+    pub(super) fn check_recorded(&self, all: &ScenarioSpec) -> Result<(), BadInput> {
+        let Some(simulation) = &all.simulation else {
+            return Ok(());
+        };
+        let densities = all
+            .density
+            .iter()
+            .flat_map(|d| d.quantities.iter().flatten());
+        let densities = densities
+            .enumerate()
+            .map(|(k, name)| (format!("density.quantities.{k}"), name));
+        let limits = all.reliability.iter().flat_map(|r| &r.limit).enumerate();
+        let limits =
+            limits.map(|(k, limit)| (format!("reliability.limit.{k}.quantity"), &limit.quantity));
+        for (key, name) in densities.chain(limits) {
+            if !simulation.record.contains(name) {
+                let found = format!("{name:?}");
+                return Err(self
+                    .bad(&key, "a quantity of simulation.record", found)
+                    .remedy("record it or leave it out here"));
+            }
         }
         Ok(())
     }

@@ -7,11 +7,12 @@ mod reliability;
 
 use super::Context;
 use crate::cli::{self, Figure};
+use crate::files::output::write_error;
 use crate::files::{Kind, OutputFile, Provenance, identify};
 use crate::plot::{Image, Label, Page, ValueAxis};
 use crate::quantity::Quantity;
 use crate::scenario::Scenario;
-use crate::{BadInput, Error, Result};
+use crate::{BadInput, Result};
 use clap::ValueEnum;
 use std::io::Write;
 
@@ -20,6 +21,7 @@ const SCALE: f64 = 2.0;
 
 pub(super) fn run(context: &Context, args: &cli::Plot) -> Result<()> {
     let format = Format::of(args)?;
+    super::check_distinct(&[&args.input], &[("--output", &args.output.output)])?;
     let kind = identify(&args.input)?;
     let figure = figure(args, kind)?;
     let image = match figure {
@@ -38,7 +40,7 @@ pub(super) fn run(context: &Context, args: &cli::Plot) -> Result<()> {
     let mut output = OutputFile::create(&args.output.output, !args.output.no_clobber)?;
     output
         .write_all(&bytes)
-        .map_err(|e| Error::io(&args.output.output, "can't write", e))?;
+        .map_err(|e| write_error(&args.output.output, e))?;
     output.commit()
 }
 

@@ -124,3 +124,52 @@ fn overrides_of_other_ways_to_write_a_table() {
         "[reliability]\nconfidence = 0.9\nlimit = [{ name = \"b\" }]\n"
     );
 }
+
+#[test]
+fn an_override_without_a_value_removes() {
+    let text = "# a\n[points]\nrule = \"monte-carlo\" # b\ntruncate_at = 3.0 # c\nseed = 1\n\n# d\n[density]\n";
+    let removed = |options: &[&str]| after(text, options);
+    assert_eq!(
+        removed(&["points.truncate_at=", "density = "]),
+        "# a\n[points]\nrule = \"monte-carlo\" # b\nseed = 1\n"
+    );
+    assert_eq!(removed(&["density.x=1", "density.x="]), text);
+    let lists = "[bridge]\nsection = [{ name = \"q\", position = 1 }]\n\n[[reliability.limit]]\nname = \"a\"\n\n\
+                 [[reliability.limit]]\nname = \"b\"\n";
+    assert_eq!(
+        after(
+            lists,
+            &["reliability.limit.0=", "bridge.section.0.position="]
+        ),
+        "[bridge]\nsection = [{ name = \"q\"}]\n\n[[reliability.limit]]\nname = \"b\"\n"
+    );
+    let scenario = example().set(&sets(&["simulation.record.0="])).unwrap();
+    let record = scenario.simulation().unwrap().record;
+    assert_eq!(record, ["vehicle/body/acceleration"]);
+    // Entries after it have moved: the file's lines would be others.
+    assert_eq!(scenario.place("simulation.record.0"), "--set");
+    let missing = example().set(&sets(&["bridge.span="])).unwrap().bridge();
+    assert_eq!(
+        missing.unwrap_err().to_string(),
+        "--set: bridge.span: missing: span (m)"
+    );
+    // What is not there may be removed where it could be.
+    let absent = [
+        "bridge.section=",
+        "bridge.section.0.name=",
+        "irregularity.deterministic.amplitude=",
+    ];
+    assert_eq!(removed(&absent), text);
+    for unknown in [
+        "points.truncate=",
+        "bridge.section.first=",
+        "title.x=",
+        "a=",
+    ] {
+        let key = unknown.trim_end_matches('=');
+        assert_eq!(
+            example().set(&sets(&[unknown])).unwrap_err().to_string(),
+            format!("--set: {key}: expected a known key, to remove it, found an unknown one")
+        );
+    }
+}

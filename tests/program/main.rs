@@ -1,0 +1,14 @@
+//! The program as its users run it: command lines, exit codes, messages, files.
+
+mod accuracy;
+mod bad_outputs;
+mod bad_points;
+mod bad_recordings;
+mod bad_scenarios;
+mod chain;
+mod command_line;
+mod determinism;
+mod foreign;
+mod growth;
+mod harness;
+mod interruption;
