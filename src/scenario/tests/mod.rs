@@ -237,11 +237,11 @@ fn a_file_that_is_no_text_or_not_there() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("s.toml");
     let error = Scenario::load(&path, &[]).unwrap_err();
-    assert_eq!(error.exit_code(), 1);
+    assert_eq!(error.exit_code(), 2);
     assert!(
         error
             .to_string()
-            .starts_with(&format!("{}: can't read: ", path.display()))
+            .starts_with(&format!("{}: ", path.display()))
     );
     std::fs::write(&path, b"title = \"\xff\"").unwrap();
     let error = Scenario::load(&path, &[]).unwrap_err();

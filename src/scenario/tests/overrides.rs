@@ -151,7 +151,7 @@ fn an_override_without_a_value_removes() {
     let missing = example().set(&sets(&["bridge.span="])).unwrap().bridge();
     assert_eq!(
         missing.unwrap_err().to_string(),
-        "--set: bridge.span: missing: span (m)"
+        "--set: bridge.span: missing: distance between the supports (m)"
     );
     // What is not there may be removed where it could be.
     let absent = [
