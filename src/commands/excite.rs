@@ -104,7 +104,7 @@ fn write(
     std::thread::scope(|scope| {
         let (full, groups) = sync_channel::<Group>(1);
         let (emptied, spare) = sync_channel::<Vec<f64>>(2);
-        let finished = scope.spawn(move || -> Result<()> {
+        let written = scope.spawn(move || -> Result<PointsWriter> {
             for group in groups {
                 let probability: Vec<f64> =
                     group.points.clone().map(|q| rule.probability(q)).collect();
@@ -115,43 +115,35 @@ fn write(
                     irregularity: &[&group.rows],
                     variables: &[],
                 })?;
-                // Never wait for the other side to take the memory back: at the end it does not.
+                // Memory that finds no room on its way back is let go.
                 let _ = emptied.try_send(group.rows);
             }
-            writer.finish()
+            Ok(writer)
         });
-        let mut failed = Ok(());
+        let mut filled = Ok(());
         for first in (0..rule.count()).step_by(ROW_GROUP) {
-            failed = interrupt::check();
+            filled = interrupt::check();
+            if filled.is_err() {
+                break;
+            }
             let points = first..(first + ROW_GROUP).min(rule.count());
             let mut rows = spare.try_recv().unwrap_or_default();
             rows.resize(points.len() * source.grid.count, 0.0);
             source.fill(rule, points.start, &mut rows);
             bar.inc(points.len() as u64);
-            if failed.is_err() || full.send(Group { points, rows }).is_err() {
+            if full.send(Group { points, rows }).is_err() {
                 break;
             }
         }
-        if failed.is_err() {
-            // Without its end the writer must not put the file in its place.
-            interrupted(full, finished);
-            return failed;
-        }
         drop(full);
         bar.finish_and_clear();
-        finished
+        let writer = written
             .join()
-            .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        // Only with all groups may the file take its place.
+        filled?;
+        writer?.finish()
     })
-}
-
-/// Ends the writer: it checks for the interruption itself, before it writes or finishes.
-fn interrupted<T>(
-    sender: std::sync::mpsc::SyncSender<T>,
-    thread: std::thread::ScopedJoinHandle<'_, Result<()>>,
-) {
-    drop(sender);
-    let _ = thread.join();
 }
 
 /// Where the rows come from.

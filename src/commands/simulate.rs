@@ -301,10 +301,14 @@ impl Run<'_> {
             .map_init(
                 || (Batch::new(&self.tables), Vec::new()),
                 |(lanes, scratch), (mut strip, rows)| {
+                    if interrupt::check().is_err() {
+                        return Ok(());
+                    }
                     self.step_group(lanes, scratch, rows, &mut strip)
                 },
             )
             .collect();
+        interrupt::check()?;
         for (number, outcome) in outcomes.into_iter().enumerate() {
             outcome.map_err(|(lane, divergence)| {
                 let point = batch.first_point as usize + number * GROUP + lane;
