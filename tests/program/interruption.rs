@@ -80,7 +80,7 @@ const COARSE: &str = "--set irregularity.spacing=8 --set irregularity.wavenumber
 #[test]
 fn excite() {
     let folder = Folder::new();
-    let line = "excite -s scenario.toml --count 300000 -o points.parquet";
+    let line = "excite -s scenario.toml --count 1000000 -o points.parquet";
     interrupt_often(&folder, line, &["points.parquet"]);
 }
 
@@ -96,12 +96,27 @@ fn simulate() {
 }
 
 #[test]
-fn density_and_reliability() {
+fn density() {
     let folder = Folder::with_recording();
-    let fine = "--set density.points_per_time=50000";
-    let line =
-        format!("density responses.mcap {fine} -o density.parquet --moments moments.parquet");
-    interrupt_often(&folder, &line, &["density.parquet", "moments.parquet"]);
-    let line = format!("reliability responses.mcap {fine} -o reliability.parquet");
-    interrupt_often(&folder, &line, &["reliability.parquet"]);
+    let line = "density responses.mcap --set density.points_per_time=50000 -o density.parquet --moments moments.parquet";
+    interrupt_often(&folder, line, &["density.parquet", "moments.parquet"]);
+}
+
+#[test]
+fn reliability() {
+    let folder = Folder::new();
+    folder.done(&format!(
+        "excite -s scenario.toml {COARSE} --count 5000 -o points.parquet"
+    ));
+    folder.done("simulate -s scenario.toml points.parquet -o responses.mcap");
+    // A hundred limits make it long.
+    let limits: String = (1..=100)
+        .map(|k| {
+            format!("{{name=\"{k}\",quantity=\"vehicle/body/acceleration\",kind=\"upper\",threshold={k}e-2}},")
+        })
+        .collect();
+    let line = format!(
+        "reliability responses.mcap --set reliability.limit=[{limits}] -o out --extremes extremes"
+    );
+    interrupt_often(&folder, &line, &["out", "extremes"]);
 }

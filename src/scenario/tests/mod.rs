@@ -238,10 +238,12 @@ fn a_file_that_is_no_text_or_not_there() {
     let path = folder.path().join("s.toml");
     let error = Scenario::load(&path, &[]).unwrap_err();
     assert_eq!(error.exit_code(), 2);
-    assert!(
-        error
-            .to_string()
-            .starts_with(&format!("{}: ", path.display()))
+    assert_eq!(
+        error.to_string(),
+        format!(
+            "{}: expected a scenario (TOML), found no such file",
+            path.display()
+        )
     );
     std::fs::write(&path, b"title = \"\xff\"").unwrap();
     let error = Scenario::load(&path, &[]).unwrap_err();
