@@ -19,7 +19,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 /// The irregularity that a quarter car runs on.
 const COMPONENT: &str = "vertical";
 /// Points that a thread steps before it writes their rows.
-const GROUP: usize = 8 * LANES;
+const GROUP: usize = 6 * LANES;
 
 pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
     super::check_distinct(
@@ -285,6 +285,7 @@ impl Run<'_> {
                 values: &values,
                 point_values: &[],
             })?;
+            // Never wait for the other side to take the memory back: at the end it does not.
             let _ = emptied.try_send(values);
         }
         Ok(writer)

@@ -12,6 +12,9 @@ pub const EXACT_POINTS: usize = 8192;
 const MEMORY: usize = 192 << 20;
 /// Bins in a smoothing width.
 const BINS_PER_WIDTH: f64 = 6.0;
+/// A spread below this share of the largest response at any time is rounding: a response that is
+/// zero at the start, but for the last digit of what cancels there.
+const ROUNDING: f64 = 1e-14;
 
 /// On which nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -116,13 +119,22 @@ impl Estimator<'_> {
         let points = self.source.probability().len();
         if points <= EXACT_POINTS {
             let window = (MEMORY / (8 * points.max(1))).clamp(1, cells.max(1));
+            let scales = if window < cells {
+                Some(self.scales(&self.sums(cells)?))
+            } else {
+                None
+            };
             for first in (0..cells).step_by(window) {
-                let count = window.min(cells - first);
-                work(self, first, &self.collect(first, count)?)?;
+                let mut held = self.collect(first, window.min(cells - first))?;
+                let own = || self.scales(&held.iter().map(|cell| cell.sums).collect::<Vec<_>>());
+                let scales = scales.clone().unwrap_or_else(own);
+                self.still(first, &mut held, &scales);
+                work(self, first, &held)?;
             }
             return Ok(());
         }
         let sums = self.sums(cells)?;
+        let scales = self.scales(&sums);
         let mut first = 0;
         while first < cells {
             let mut bytes = 0;
@@ -134,10 +146,30 @@ impl Estimator<'_> {
                 })
                 .count()
                 .max(1);
-            work(self, first, &self.fill(first, &sums[first..first + count])?)?;
+            let mut held = self.fill(first, &sums[first..first + count])?;
+            self.still(first, &mut held, &scales);
+            work(self, first, &held)?;
             first += count;
         }
         Ok(())
+    }
+
+    /// The largest absolute value of each quantity, from the sums of all cells.
+    fn scales(&self, sums: &[PowerSums]) -> Vec<f64> {
+        sums.chunks(self.source.times().len().max(1))
+            .map(|sums| sums.iter().map(PowerSums::size).fold(0.0, f64::max))
+            .collect()
+    }
+
+    /// Cells whose spread is rounding beside their quantity's scale are without spread.
+    fn still(&self, first: usize, cells: &mut [Cell], scales: &[f64]) {
+        let times = self.source.times().len();
+        for (k, cell) in cells.iter_mut().enumerate() {
+            let scale = scales[(first + k) / times];
+            if cell.sums.largest - cell.sums.least <= ROUNDING * scale {
+                cell.samples = Samples::One;
+            }
+        }
     }
 
     /// All points of `count` cells from the cell `first` on.

@@ -93,8 +93,12 @@ impl PowerSums {
 
     /// Whether the values differ by more than rounding.
     pub fn has_spread(&self) -> bool {
-        let size = self.least.abs().max(self.largest.abs());
-        self.largest - self.least > 64.0 * f64::EPSILON * size
+        self.largest - self.least > 64.0 * f64::EPSILON * self.size()
+    }
+
+    /// The largest absolute value.
+    pub fn size(&self) -> f64 {
+        self.least.abs().max(self.largest.abs())
     }
 
     /// μ, √variance, skewness and kurtosis.

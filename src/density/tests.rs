@@ -194,3 +194,17 @@ fn rules_of_the_width() {
     assert!((Smoothing::Factor(0.02).width(&spread) - 0.01).abs() < 1e-15);
     assert_eq!(Smoothing::Fixed(0.3).width(&spread), 0.3);
 }
+
+#[test]
+fn rounding_beside_the_scale_is_no_spread() {
+    for count in [984, 20_011] {
+        let mut held = normal(count, 1e-3);
+        held.values[0][0] = held.values[0][1]
+            .iter()
+            .map(|x| 1e-18 * (x - 5.0))
+            .collect();
+        let results = run(&held, options(Smoothing::Silverman));
+        assert!(results[0].curve.is_none() && results[0].moments.smoothing_width == 0.0);
+        assert!(results[1].curve.is_some());
+    }
+}

@@ -1,11 +1,13 @@
 //! The coupled step, in vectors of lanes. See [`crate::system::Crossing`] for its equations.
 
 use super::batch::State;
-use super::lanes::{Dense2, Dense3, LANES, Row, Step, TwoStep, TwoStepVelocity, each};
+use super::lanes::{Dense2, Dense3, LANES, Row, Step, TwoStep, TwoStepVelocity, each, load, store};
+use super::sample::{Sample, combine};
 use super::strip::Strip;
 use super::suspension::{self, Compliance};
-use crate::integrate::{Pattern, Propagator};
-use crate::system::{CrossingTables, OutputMap};
+use super::vehicle::{Forces, Vehicle};
+use crate::integrate::Pattern;
+use crate::system::CrossingTables;
 use pulp::{Simd, WithSimd};
 use std::ops::Range;
 
@@ -30,23 +32,6 @@ impl WithSimd for Kernel<'_, '_> {
             _ => self.dispatch::<S, LANES>(simd),
         }
     }
-}
-
-/// Heave and travel of the vehicle, predicted, and the suspension's N.
-struct Vehicle<S: Simd, const W: usize> {
-    heave: [Row<S, W>; 3],
-    travel: [Row<S, W>; 3],
-    suspension: Row<S, W>,
-}
-
-/// The forces of a step.
-struct Forces<S: Simd, const W: usize> {
-    /// P, the dynamic part of the contact force.
-    dynamic: Row<S, W>,
-    /// F = W + P.
-    contact: Row<S, W>,
-    /// N.
-    suspension: Row<S, W>,
 }
 
 impl Kernel<'_, '_> {
@@ -148,18 +133,6 @@ impl Kernel<'_, '_> {
     }
 }
 
-#[inline(always)]
-fn load<S: Simd, const W: usize>(simd: S, values: &[f64]) -> Row<S, W> {
-    let vectors = &S::as_simd_f64s(&values[..LANES]).0[..W];
-    each!(simd, j => vectors[j])
-}
-
-#[inline(always)]
-fn store<S: Simd, const W: usize>(values: &mut [f64], row: &Row<S, W>, _: S) {
-    let vectors = S::as_mut_simd_f64s(&mut values[..LANES]).0;
-    vectors.copy_from_slice(&row[..W]);
-}
-
 /// All modes one step on; returns the deck's predicted displacement under the wheel's next place.
 #[inline(always)]
 fn advance_modes<S: Simd, const W: usize, M: Step>(
@@ -208,7 +181,7 @@ fn contact<S: Simd, const W: usize, const NONLINEAR: bool>(
     eta: &Row<S, W>,
     vehicle: &Vehicle<S, W>,
 ) -> Forces<S, W> {
-    let share = simd.splat_f64s(tables.crossing.car.wheel_share());
+    let share = simd.splat_f64s(tables.wheel_share);
     let offset = simd.splat_f64s(tables.static_offset[n]);
     let stiffness = simd.splat_f64s(tables.contact_stiffness[n]);
     let weight = simd.splat_f64s(tables.weight);
@@ -258,176 +231,4 @@ fn nonlinear<S: Simd, const W: usize>(
         &rate,
         &vehicle.suspension,
     )
-}
-
-/// coefficients·states + factor row; coefficients that are zero cost nothing.
-#[inline(always)]
-fn combine<S: Simd, const W: usize>(
-    simd: S,
-    coefficients: [f64; 3],
-    states: &[Row<S, W>; 3],
-    factor: f64,
-    row: &Row<S, W>,
-) -> Row<S, W> {
-    let mut sum = each!(simd, j => simd.mul_f64s(simd.splat_f64s(factor), row[j]));
-    for (c, x) in coefficients.iter().zip(states) {
-        if *c != 0.0 {
-            sum = each!(simd, j => simd.mul_add_f64s(simd.splat_f64s(*c), x[j], sum[j]));
-        }
-    }
-    sum
-}
-
-impl<S: Simd, const W: usize> Vehicle<S, W> {
-    #[inline(always)]
-    fn load(simd: S, state: &State) -> Self {
-        let rows = state.vehicle.values();
-        Vehicle {
-            heave: [
-                load(simd, rows),
-                load(simd, &rows[LANES..]),
-                load(simd, &rows[2 * LANES..]),
-            ],
-            travel: [
-                load(simd, &rows[3 * LANES..]),
-                load(simd, &rows[4 * LANES..]),
-                load(simd, &rows[5 * LANES..]),
-            ],
-            suspension: load(simd, &rows[6 * LANES..]),
-        }
-    }
-
-    #[inline(always)]
-    fn store(&self, simd: S, state: &mut State) {
-        let rows = self
-            .heave
-            .iter()
-            .chain(&self.travel)
-            .chain([&self.suspension]);
-        for (k, row) in rows.enumerate() {
-            store(&mut state.vehicle.values_mut()[k * LANES..], row, simd);
-        }
-    }
-
-    #[inline(always)]
-    fn advance<H: Step, V: Step, const NONLINEAR: bool>(
-        &mut self,
-        simd: S,
-        tables: &CrossingTables,
-        forces: &Forces<S, W>,
-    ) {
-        let car = &tables.crossing.car;
-        oscillate::<S, W, H>(
-            simd,
-            &tables.heave,
-            &mut self.heave,
-            1.0 / car.mass(),
-            &forces.dynamic,
-        );
-        let squeeze = -1.0 / car.wheel_mass;
-        if NONLINEAR {
-            // −P/m₂ − N/μ = −(P + N m₂/μ)/m₂.
-            let ratio = simd.splat_f64s(car.wheel_mass / car.reduced_mass());
-            let force =
-                each!(simd, j => simd.mul_add_f64s(ratio, forces.suspension[j], forces.dynamic[j]));
-            oscillate::<S, W, V>(simd, &tables.travel, &mut self.travel, squeeze, &force);
-            self.suspension = forces.suspension;
-        } else {
-            oscillate::<S, W, V>(
-                simd,
-                &tables.travel,
-                &mut self.travel,
-                squeeze,
-                &forces.dynamic,
-            );
-        }
-    }
-}
-
-/// One oscillator in physical coordinates, one step on under `factor * force`.
-#[inline(always)]
-fn oscillate<S: Simd, const W: usize, V: Step>(
-    simd: S,
-    map: &Propagator,
-    x: &mut [Row<S, W>; 3],
-    factor: f64,
-    force: &Row<S, W>,
-) {
-    let factor = factor * V::unit(map);
-    for j in 0..W {
-        let free = V::free(simd, map, [x[0][j], x[1][j], x[2][j]]);
-        let next = V::push(simd, map, factor, force[j], free);
-        for (plane, value) in x.iter_mut().zip(next) {
-            plane[j] = value;
-        }
-    }
-}
-
-/// What the outputs of a step are made of.
-struct Sample<'a, S: Simd, const W: usize> {
-    planes: [&'a [[S::f64s; W]]; 3],
-    vehicle: &'a Vehicle<S, W>,
-    forces: &'a Forces<S, W>,
-    eta: &'a Row<S, W>,
-}
-
-impl<S: Simd, const W: usize> Sample<'_, S, W> {
-    /// Writes all quantities of step n.
-    #[inline(always)]
-    fn write<const NONLINEAR: bool>(
-        &self,
-        simd: S,
-        tables: &CrossingTables,
-        n: usize,
-        record: usize,
-        strip: &mut Strip<'_>,
-    ) {
-        let first = record * tables.outputs.len();
-        for (k, map) in tables.outputs.iter().enumerate() {
-            let row = match map {
-                OutputMap::Bridge { terms, feed } => self.bridge(simd, terms, feed[n]),
-                OutputMap::Vehicle {
-                    heave,
-                    travel,
-                    p,
-                    n,
-                } => {
-                    let mut row = combine(
-                        simd,
-                        *travel,
-                        &self.vehicle.travel,
-                        *p,
-                        &self.forces.dynamic,
-                    );
-                    if NONLINEAR {
-                        let n = simd.splat_f64s(*n);
-                        let force = &self.forces.suspension;
-                        row = each!(simd, j => simd.mul_add_f64s(n, force[j], row[j]));
-                    }
-                    if *heave != [0.0; 3] {
-                        let rise = combine(simd, *heave, &self.vehicle.heave, 0.0, self.eta);
-                        row = each!(simd, j => simd.add_f64s(row[j], rise[j]));
-                    }
-                    row
-                }
-                OutputMap::ContactForce => self.forces.contact,
-                OutputMap::Irregularity => *self.eta,
-            };
-            store(strip.row(first + k), &row, simd);
-        }
-    }
-
-    #[inline(always)]
-    fn bridge(&self, simd: S, terms: &[(usize, usize, f64)], feed: f64) -> Row<S, W> {
-        let feed = simd.splat_f64s(feed);
-        let mut row = each!(simd, j => simd.mul_f64s(feed, self.forces.contact[j]));
-        for (plane, mode, coefficient) in terms {
-            let x = &self.planes[*plane][*mode];
-            let c = simd.splat_f64s(*coefficient);
-            for j in 0..W {
-                row[j] = simd.mul_add_f64s(c, x[j], row[j]);
-            }
-        }
-        row
-    }
 }

@@ -4,7 +4,7 @@ use crate::integrate::Propagator;
 use pulp::Simd;
 
 /// Points that are stepped together.
-pub const LANES: usize = 16;
+pub const LANES: usize = 24;
 
 /// A row of lanes in `W` vectors.
 pub(super) type Row<S, const W: usize> = [<S as Simd>::f64s; W];
@@ -21,6 +21,20 @@ macro_rules! each {
     }};
 }
 pub(super) use each;
+
+/// The first lanes of some values.
+#[inline(always)]
+pub(super) fn load<S: Simd, const W: usize>(simd: S, values: &[f64]) -> Row<S, W> {
+    let vectors = &S::as_simd_f64s(&values[..LANES]).0[..W];
+    each!(simd, j => vectors[j])
+}
+
+/// Writes a row over the first lanes of some values.
+#[inline(always)]
+pub(super) fn store<S: Simd, const W: usize>(values: &mut [f64], row: &Row<S, W>, _: S) {
+    let vectors = S::as_mut_simd_f64s(&mut values[..LANES]).0;
+    vectors.copy_from_slice(&row[..W]);
+}
 
 /// f64 in whole cache lines.
 #[derive(Debug, Clone, Default)]

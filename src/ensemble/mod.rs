@@ -9,8 +9,10 @@ mod batch;
 mod kernel;
 mod lanes;
 mod path;
+mod sample;
 mod strip;
 mod suspension;
+mod vehicle;
 
 pub use batch::{Batch, Divergence};
 pub use lanes::LANES;

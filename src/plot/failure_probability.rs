@@ -1,11 +1,11 @@
 //! The probability of failure over time, for each limit and method.
 
-use super::axes::{Axis, Frame, left_margin};
-use super::canvas::Stroke;
+use super::axes::{Axis, BOTTOM_MARGIN, Frame, NUMBER_SIZE, left_margin};
+use super::canvas::{Anchor, Canvas, Rectangle, Stroke, TextStyle};
 use super::check;
 use super::colour::line_colour;
 use super::lines::{band, thinned};
-use super::page::{Entry, Page, Swatch, plot_area};
+use super::page::{Entry, Page, plot_area};
 use super::statistics::range;
 use super::{Image, RIGHT_MARGIN, TIME_LABEL};
 use crate::Result;
@@ -23,54 +23,87 @@ pub struct FailureCurve<'a> {
     pub upper: &'a [f64],
 }
 
-/// Probabilities of failure over time: a colour for each limit, a dash for each method.
+/// Probabilities of failure over time: a plot for each limit, a line for each method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FailureProbability<'a> {
     pub curves: &'a [FailureCurve<'a>],
 }
 
 const PICTURE: &str = "plot of the failure probability";
-const DASHES: [&str; 4] = ["", "8 4", "2 3", "10 3 2 3"];
+const DASHES: [&str; 4] = ["", "10 5", "2 4", "10 3 2 3"];
+/// Of the area between the bounds.
+const OPACITY: f64 = 0.15;
 /// An axis that would span more than this factor is logarithmic.
-const MOST_LINEAR: f64 = 100.0;
-/// Smoothed probabilities have tails without end: a logarithmic axis shows this much below its top.
-const LEAST_SHOWN: f64 = 1e-8;
+const MOST_LINEAR: f64 = 3.0;
+/// Smoothed probabilities have tails without end. A logarithmic axis ends at this part of the least
+/// upper bound, about which the points know nothing more ...
+const PART_OF_BOUND: f64 = 0.1;
+/// ... or, without bounds, at this part of its top.
+const PART_OF_TOP: f64 = 1e-8;
+/// Above each plot, for the name of its limit.
+const NAME: f64 = 30.0;
+/// As much more above the first one.
+const FIRST: f64 = 12.0;
+/// What a plot needs at least.
+const LEAST_HEIGHT: f64 = 160.0;
 
 impl FailureProbability<'_> {
-    /// Draws them.
+    /// Draws them; many limits make the page higher.
     ///
     /// # Errors
     /// [`crate::Error::Input`] where there is no curve, lengths differ or a value is not finite.
     pub fn draw(&self, page: &Page) -> Result<Image> {
         self.check()?;
-        let y = self.axis();
+        let limits = distinct(self.curves.iter().map(|curve| curve.limit));
+        let plots: Vec<Plot<'_>> = limits.iter().map(|limit| self.plot(limit)).collect();
+        let count = plots.len() as f64;
+        let page = Page {
+            height: page.height.max(LEAST_HEIGHT * (count + 1.0)),
+            ..page.clone()
+        };
         let times = self
             .curves
             .iter()
             .flat_map(|curve| curve.times.iter().copied());
         let (start, end) = range(times);
-        let x = Axis::linear(TIME_LABEL, start, end);
-        let legend: Vec<Entry> = self.curves.iter().map(|curve| self.entry(curve)).collect();
-        let (mut canvas, room) = page.start(&self.remarks(), &legend);
-        let frame = Frame::new(
-            plot_area(room, left_margin(&y, room.height), RIGHT_MARGIN),
-            x,
-            y,
-        );
-        frame.draw_grid(&mut canvas);
-        canvas.clipped(frame.area, |canvas| {
-            for curve in self.curves.iter().filter(|curve| !curve.lower.is_empty()) {
-                let line = |values| points(&frame, curve.times, values);
-                let area = band(&line(curve.lower), &line(curve.upper));
-                canvas.polygon(&area, self.stroke(curve).colour, 0.15);
+        let (mut canvas, room) = page.start(&[], &self.legend());
+        let height = (room.height - BOTTOM_MARGIN - (count - 1.0) * NAME) / count - FIRST;
+        let margins = plots.iter().map(|plot| left_margin(&plot.axis, height));
+        let area = plot_area(room, margins.fold(0.0, f64::max), RIGHT_MARGIN);
+        for (index, plot) in plots.iter().enumerate() {
+            let top = area.top + FIRST + index as f64 * (height + NAME);
+            let area = Rectangle {
+                top,
+                height,
+                ..area
+            };
+            let x = Axis::linear(TIME_LABEL, start, end);
+            let frame = Frame::new(area, x, plot.axis.clone());
+            self.draw_plot(&mut canvas, plot, &frame);
+            if index + 1 == plots.len() {
+                frame.draw_axes(&mut canvas);
+            } else {
+                frame.draw_axes_above(&mut canvas);
             }
-            for curve in self.curves {
-                let line = points(&frame, curve.times, curve.failure_probability);
+        }
+        Ok(canvas.finish())
+    }
+
+    fn draw_plot(&self, canvas: &mut Canvas, plot: &Plot<'_>, frame: &Frame) {
+        let style = TextStyle::new(NUMBER_SIZE, Anchor::Start);
+        canvas.text(frame.area.left, frame.area.top - 7.0, &plot.name, style);
+        frame.draw_grid(canvas);
+        canvas.clipped(frame.area, |canvas| {
+            if let Some(curve) = plot.bounded() {
+                let line = |values| points(frame, curve.times, values);
+                let area = band(&line(curve.lower), &line(curve.upper));
+                canvas.polygon(&area, self.stroke(curve).colour, OPACITY);
+            }
+            for curve in &plot.curves {
+                let line = points(frame, curve.times, curve.failure_probability);
                 canvas.polyline(&line, self.stroke(curve));
             }
         });
-        frame.draw_axes(&mut canvas);
-        Ok(canvas.finish())
     }
 
     fn check(&self) -> Result<()> {
@@ -101,61 +134,91 @@ impl FailureProbability<'_> {
         Ok(())
     }
 
-    fn remarks(&self) -> Vec<String> {
-        let mut values = self
+    fn plot<'a>(&'a self, limit: &'a str) -> Plot<'a> {
+        let curves: Vec<&FailureCurve<'_>> = self
             .curves
             .iter()
-            .flat_map(|curve| curve.failure_probability);
-        if values.all(|&p| p == 0.0) {
-            vec!["no failure at any time".to_owned()]
-        } else {
-            Vec::new()
+            .filter(|curve| curve.limit == limit)
+            .collect();
+        let safe = curves
+            .iter()
+            .all(|curve| curve.failure_probability.iter().all(|&p| p == 0.0));
+        Plot {
+            name: if safe {
+                format!("{limit} (no failure at any time)")
+            } else {
+                limit.to_owned()
+            },
+            axis: axis(&curves),
+            curves,
         }
     }
 
-    /// Linear or logarithmic, by the range of what is not zero.
-    fn axis(&self) -> Axis {
-        let label = "Probability of failure, P_{f}(t)";
-        let values = self
-            .curves
-            .iter()
-            .flat_map(|curve| curve.failure_probability.iter().copied());
-        let (least, most) = range(values.filter(|&p| p > 0.0));
-        let bounds = self
-            .curves
-            .iter()
-            .flat_map(|curve| curve.upper.iter().copied());
-        let (_, top) = range(bounds.chain([most]).filter(|p| p.is_finite()));
-        if most > MOST_LINEAR * least {
-            let low = least.max(LEAST_SHOWN * most);
-            return Axis::logarithmic(label, low / 1.5, (1.5 * top).min(1.0).max(1.1 * most));
+    /// The methods, and whose bounds are drawn.
+    fn legend(&self) -> Vec<Entry> {
+        let mut entries = Vec::new();
+        let mut named = Vec::new();
+        for curve in self.curves {
+            if !named.contains(&curve.method) {
+                named.push(curve.method);
+                entries.push(Entry::line(self.stroke(curve), curve.method));
+            }
         }
-        if top > 0.0 {
-            Axis::linear(label, 0.0, 1.05 * top)
-        } else {
-            // Nothing fails: the line lies at zero.
-            Axis::linear(label, -0.05, 1.0)
-        }
-    }
-
-    fn entry(&self, curve: &FailureCurve<'_>) -> Entry {
-        let stroke = self.stroke(curve);
-        let swatch = if curve.lower.is_empty() {
-            Swatch::Line(stroke)
-        } else {
-            Swatch::LineInBand(stroke, stroke.colour, 0.15)
-        };
-        let name = format!("{}, {}", curve.limit, curve.method);
-        Entry { swatch, name }
+        let bounded = self.curves.iter().find(|curve| !curve.lower.is_empty());
+        entries.extend(bounded.map(|curve| {
+            let name = format!("confidence bounds of {}", curve.method);
+            Entry::band(self.stroke(curve).colour, OPACITY, name)
+        }));
+        entries
     }
 
     fn stroke(&self, curve: &FailureCurve<'_>) -> Stroke {
-        let limits = distinct(self.curves.iter().map(|curve| curve.limit));
         let methods = distinct(self.curves.iter().map(|curve| curve.method));
-        let place = |names: &[&str], name: &str| names.iter().position(|n| *n == name).unwrap_or(0);
-        let colour = line_colour(place(&limits, curve.limit));
-        let dashes = DASHES[place(&methods, curve.method) % DASHES.len()];
-        Stroke::solid(colour, 2.2).dashed(dashes)
+        let place = methods.iter().position(|name| *name == curve.method);
+        let place = place.unwrap_or(0);
+        Stroke::solid(line_colour(place), 2.2).dashed(DASHES[place % DASHES.len()])
+    }
+}
+
+/// The plot of one limit.
+struct Plot<'a> {
+    name: String,
+    axis: Axis,
+    curves: Vec<&'a FailureCurve<'a>>,
+}
+
+impl Plot<'_> {
+    /// The curve whose bounds are drawn: those of all methods would hide each other.
+    fn bounded(&self) -> Option<&FailureCurve<'_>> {
+        let mut curves = self.curves.iter().copied();
+        curves.find(|curve| !curve.lower.is_empty())
+    }
+}
+
+/// Linear or logarithmic, by the range of what is worth showing.
+fn axis(curves: &[&FailureCurve<'_>]) -> Axis {
+    let label = "Probability of failure, P_{f}(t)";
+    let values = curves
+        .iter()
+        .flat_map(|curve| curve.failure_probability.iter().copied());
+    let (least, most) = range(values.filter(|&p| p > 0.0));
+    let bounds = || curves.iter().flat_map(|curve| curve.upper.iter().copied());
+    let (least_bound, _) = range(bounds().filter(|&p| p > 0.0));
+    let (_, top) = range(bounds().chain([most]).filter(|p| p.is_finite()));
+    let low = if least_bound.is_finite() {
+        PART_OF_BOUND * least_bound
+    } else {
+        PART_OF_TOP * most
+    };
+    let low = low.max(least);
+    if most > MOST_LINEAR * low {
+        return Axis::logarithmic(label, low, (1.5 * top).min(1.0).max(1.1 * most));
+    }
+    if top > 0.0 {
+        Axis::linear(label, 0.0, 1.05 * top)
+    } else {
+        // Nothing fails: the line lies at zero.
+        Axis::linear(label, -0.05, 1.0)
     }
 }
 
@@ -177,4 +240,55 @@ fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
         }
     }
     result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::axes::Scale;
+    use super::*;
+
+    fn curve<'a>(limit: &'a str, values: &'a [f64], bounds: [&'a [f64]; 2]) -> FailureCurve<'a> {
+        FailureCurve {
+            limit,
+            method: "counting",
+            times: &[0.0, 1.0, 2.0],
+            failure_probability: values,
+            lower: bounds[0],
+            upper: bounds[1],
+        }
+    }
+
+    #[test]
+    fn a_logarithmic_axis_ends_where_the_points_know_nothing() {
+        let bounds: [&[f64]; 2] = [&[0.0, 0.0, 0.08], &[0.004, 0.004, 0.13]];
+        let bounded = curve("a", &[0.0, 1e-20, 0.1], bounds);
+        let with = axis(&[&bounded]);
+        assert_eq!((with.scale, with.low), (Scale::Logarithmic, 0.1 * 0.004));
+        assert!(with.high >= 0.13);
+        let without = axis(&[&curve("a", &[0.0, 1e-20, 0.1], [&[], &[]])]);
+        assert_eq!((without.scale, without.low), (Scale::Logarithmic, 1e-9));
+    }
+
+    #[test]
+    fn what_never_fails_has_a_linear_axis_and_is_said() {
+        let bounds: [&[f64]; 2] = [&[0.0; 3], &[0.004; 3]];
+        let curves = [
+            curve("a", &[0.0; 3], bounds),
+            curve("b", &[0.0, 0.1, 0.1], [&[], &[]]),
+        ];
+        assert_eq!(axis(&[&curves[0]]).scale, Scale::Linear);
+        let figure = FailureProbability { curves: &curves };
+        let svg = figure.draw(&Page::new("", "")).unwrap().svg;
+        assert!(svg.contains("a (no failure at any time)"));
+        assert!(!svg.contains("b (no failure"));
+    }
+
+    #[test]
+    fn many_limits_make_the_page_higher() {
+        let names = ["a", "b", "c", "d", "e"];
+        let curves = names.map(|name| curve(name, &[0.0, 0.1, 0.2], [&[], &[]]));
+        let figure = FailureProbability { curves: &curves };
+        let svg = figure.draw(&Page::new("", "")).unwrap().svg;
+        assert!(svg.contains(r#"height="960" viewBox"#));
+    }
 }

@@ -18,6 +18,9 @@ use super::view::{BOX, FLOOR_COLOUR, View};
 /// Most columns over time; cells over value.
 const MOST_COLUMNS: usize = 121;
 const CELLS: usize = 120;
+/// A ridge whose standard deviation is below this part of the value axis, a pixel or so, is drawn as a
+/// normal density of that width: its own shape would flicker from column to column.
+const NARROWEST: f64 = 1.0 / 200.0;
 /// Below this part of the height the surface lies on the floor, and the floor is drawn instead ...
 const FLOOR: f64 = 0.002;
 /// ... and up to this part it takes the colour of the floor, so that it has no edge there.
@@ -51,13 +54,21 @@ impl Mesh {
     ) -> Self {
         let count = evolution.slices.len().clamp(2, MOST_COLUMNS);
         let (low, high) = evolution.standard_range();
+        let narrowest = NARROWEST * (value.high - value.low) / factor;
         let corners = |part: f64, column: &Column<'_>| {
             let half = 0.5 * (high - low) / CELLS as f64;
-            let edge = |distance: f64| column.mean + distance * column.standard_deviation;
-            // The mean density of a cell about each corner.
-            let densities = column.cells(edge(low - half), edge(high + half), CELLS + 1);
-            let origin = if deviates { column.mean } else { 0.0 };
+            let deviation = column.standard_deviation.max(narrowest);
+            let edge = |distance: f64| column.mean + distance * deviation;
             let distance = |j: usize| low + 2.0 * half * j as f64;
+            let densities = if column.standard_deviation < narrowest {
+                (0..=CELLS)
+                    .map(|j| normal(distance(j)) / deviation)
+                    .collect()
+            } else {
+                // The mean density of a cell about each corner.
+                column.cells(edge(low - half), edge(high + half), CELLS + 1)
+            };
+            let origin = if deviates { column.mean } else { 0.0 };
             let shown = |j: usize| factor * (edge(distance(j)) - origin);
             Corners {
                 time: part,
@@ -97,6 +108,11 @@ impl Mesh {
             }
         });
     }
+}
+
+/// The standard normal density.
+fn normal(distance: f64) -> f64 {
+    (-0.5 * distance * distance).exp() / std::f64::consts::TAU.sqrt()
 }
 
 /// Draws the cells between two times, with a line along the first of them where `lined`.
@@ -196,6 +212,30 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_hairline_is_as_wide_as_a_pixel() {
+        let density = |time, width: f64| {
+            let values = [-width, 0.0, width];
+            (time, values, [0.0, 1.0 / width, 0.0])
+        };
+        let made = [density(0.0, 1e-9), density(1.0, 1.0)];
+        let densities =
+            made.each_ref()
+                .map(|(time, values, densities)| crate::plot::DensityAtTime {
+                    time: *time,
+                    values,
+                    densities,
+                });
+        let evolution = Evolution::new("test", &densities).unwrap();
+        let (time, value) = (Axis::linear("", 0.0, 1.0), Axis::linear("", -1.0, 1.0));
+        let mesh = Mesh::new(&evolution, &time, &value, 1.0, true);
+        // The normal density of the width 1/200 of the axis has the height 200 / (2 sqrt(2 pi)).
+        let expected = 100.0 / std::f64::consts::TAU.sqrt();
+        let peak = mesh.peaks()[0];
+        assert!((peak / expected - 1.0).abs() < 1e-2, "{peak}");
+        assert!(mesh.peaks()[1] < 1.0);
     }
 
     #[test]

@@ -60,7 +60,7 @@ pub use slices::{Reference, Slices};
 pub use spectrum::Spectrum;
 pub use statistics::{Statistics, ValueAxis};
 pub use surface::Surface;
-pub use units::Label;
+pub use units::{Label, with_unit};
 
 const TIME_LABEL: &str = "Time, t (s)";
 /// What is free at the right of a plot: room for half of the last number.

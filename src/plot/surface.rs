@@ -51,11 +51,12 @@ impl Surface<'_> {
         let (density, cut) = density_axis(label, &mesh.peaks(), self.density_scale);
         let mut remarks = Vec::new();
         if deviates {
-            remarks.push("values measured from the mean, μ".to_owned());
+            remarks.push("measured from the mean, μ".to_owned());
         }
         if cut {
             let end = in_words(density.high);
-            remarks.push(format!("cut at {end}\u{a0}{}", unit.inverse().text));
+            let unit = unit.inverse().text;
+            remarks.push(format!("cut at\u{a0}{end}\u{a0}{unit}"));
         }
         let (mut canvas, room) = page.start(&remarks, &[]);
         let axes = [time, value, density];

@@ -93,6 +93,20 @@ impl Unit {
     }
 }
 
+/// A value of this SI unit for a sentence, in the unit that suits it: `95.5 mm`.
+pub fn with_unit(value: f64, unit: &str) -> String {
+    let unit = Unit::suiting(unit, value.abs());
+    // Twelve digits: the factor adds no others.
+    let digits = format!("{:.11e}", unit.factor * value);
+    let shown: f64 = digits.parse().unwrap_or(unit.factor * value);
+    let number = shown.to_string().replace('-', "−");
+    if unit.text.is_empty() {
+        number
+    } else {
+        format!("{number}\u{a0}{}", unit.text)
+    }
+}
+
 /// `name, symbol (unit)`, without what is empty.
 pub(super) fn axis_label(name: &str, symbol: &str, unit: &Unit) -> String {
     let mut text = name.to_owned();
@@ -137,6 +151,14 @@ mod tests {
         assert_eq!(text("Pa", 2.1e8), "MPa");
         assert_eq!(text("m/s2", 0.5), "m/s^{2}");
         assert_eq!(text("1", 0.5), "");
+    }
+
+    #[test]
+    fn a_value_in_a_sentence_keeps_its_digits() {
+        assert_eq!(with_unit(0.0955, "m"), "95.5\u{a0}mm");
+        assert_eq!(with_unit(-0.0123457, "m"), "−12.3457\u{a0}mm");
+        assert_eq!(with_unit(1.1, "m/s2"), "1.1\u{a0}m/s^{2}");
+        assert_eq!(with_unit(0.6, "1"), "0.6");
     }
 
     #[test]

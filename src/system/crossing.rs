@@ -99,6 +99,12 @@ pub struct CrossingTables {
     pub outputs: Vec<OutputMap>,
     /// W (N).
     pub weight: f64,
+    /// m₁/M.
+    pub wheel_share: f64,
+    /// 1/M, the heave's acceleration under a unit P (1/kg).
+    pub heave_load: f64,
+    /// −1/m₂, the travel's (1/kg).
+    pub travel_load: f64,
 }
 
 impl CrossingTables {
@@ -164,6 +170,9 @@ impl CrossingTables {
             travel_compliance: 0.0,
             outputs: Vec::new(),
             weight: crossing.weight(),
+            wheel_share: car.wheel_share(),
+            heave_load: 1.0 / car.mass(),
+            travel_load: -1.0 / car.wheel_mass,
         };
         tables.couple();
         tables.outputs = quantities

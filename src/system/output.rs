@@ -9,8 +9,8 @@ use crate::quantity::{BridgeResponse, Motion, Quantity, VehiclePart};
 pub enum OutputMap {
     /// Σ coefficient x[plane][mode] + feed(n) F(n).
     Bridge {
-        /// (plane, mode, coefficient), zeros left out.
-        terms: Vec<(usize, usize, f64)>,
+        /// (mode, coefficient) in each plane, zeros left out.
+        terms: [Vec<(usize, f64)>; 3],
         /// One a step.
         feed: Vec<f64>,
     },
@@ -118,21 +118,27 @@ impl BridgeRow<'_> {
     /// Collects (coefficients of x, coefficient of the modal force) of every mode.
     fn rows(&self, of_mode: impl Fn(usize, &Propagator) -> ([f64; 3], f64)) -> OutputMap {
         let modes = self.tables.modal.len();
-        let mut terms = Vec::new();
+        let mut terms: [Vec<(usize, f64)>; 3] = Default::default();
         let mut feed = vec![0.0; self.tables.crossing.steps + 1];
         for (index, map) in self.tables.modal.iter().enumerate() {
             let (state, force) = of_mode(index + 1, map);
             let scale = self.scales[index];
             for (plane, c) in state.into_iter().enumerate().take(map.pattern.states()) {
-                terms.push((plane, index, c * scale));
+                terms[plane].push((index, c * scale));
             }
             for (n, f) in feed.iter_mut().enumerate() {
                 *f += force * scale * self.tables.load[n * modes + index];
             }
         }
         // √2 sin(iπ/2) of an even mode is zero but for rounding.
-        let largest = terms.iter().map(|t| t.2.abs()).fold(0.0, f64::max);
-        terms.retain(|t| t.2.abs() > 1e-13 * largest);
+        let largest = terms
+            .iter()
+            .flatten()
+            .map(|t| t.1.abs())
+            .fold(0.0, f64::max);
+        for plane in &mut terms {
+            plane.retain(|t| t.1.abs() > 1e-13 * largest);
+        }
         OutputMap::Bridge { terms, feed }
     }
 }

@@ -2,9 +2,10 @@
 
 use super::{Axis, Image, chosen, page, value_axis};
 use crate::cli;
+use crate::files::Kind;
 use crate::files::tables::{DensitySlice, DensityTable, read_density};
 use crate::plot::{DensityAtTime, DensityScale, HeatMap, Page, Slices, Statistics, Surface};
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, SmoothingSpec};
 use crate::{BadInput, Result};
 
 /// One quantity of a table.
@@ -48,14 +49,34 @@ impl Chosen {
         let smoothing = provenance
             .and_then(|p| p.scenario.as_deref())
             .and_then(|text| Scenario::from_text("scenario", text).ok())
-            .and_then(|scenario| scenario.density().ok())
-            .map(|spec| format!("smoothing by {}", spec.smoothing.build().name()));
-        let remarks: Vec<String> = smoothing.into_iter().collect();
+            .and_then(|scenario| {
+                if self.of_extremes() {
+                    scenario.reliability().ok().map(|spec| spec.smoothing)
+                } else {
+                    scenario.density().ok().map(|spec| spec.smoothing)
+                }
+            });
+        let remarks: Vec<String> = smoothing.map(smoothing_in_words).into_iter().collect();
         page(
             format!("{}: {what}", self.axis().name),
             provenance,
             &remarks,
         )
+    }
+
+    /// Whether the table holds extreme values, one density a limit.
+    fn of_extremes(&self) -> bool {
+        let provenance = self.table.provenance.as_ref();
+        provenance.is_some_and(|p| p.kind == Kind::Extremes)
+    }
+}
+
+fn smoothing_in_words(spec: SmoothingSpec) -> String {
+    match spec {
+        SmoothingSpec::Silverman => "smoothed by Silverman's rule".to_owned(),
+        SmoothingSpec::NormalReference => "smoothed by the normal reference rule".to_owned(),
+        SmoothingSpec::Factor(spec) => format!("smoothed by the rule of factor {}", spec.factor),
+        SmoothingSpec::Fixed(_) => "smoothed by a fixed width".to_owned(),
     }
 }
 
@@ -100,7 +121,11 @@ pub(super) fn slices(args: &cli::Plot) -> Result<Image> {
         reference: None,
         value_axis: value_axis(args),
     }
-    .draw(&chosen.page("probability density at given times"))
+    .draw(&chosen.page(if chosen.of_extremes() {
+        "probability density of the extreme value"
+    } else {
+        "probability density at given times"
+    }))
 }
 
 /// A quarter, half and three quarters of the time.

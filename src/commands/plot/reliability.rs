@@ -4,7 +4,9 @@ use super::{Image, chosen, page};
 use crate::Result;
 use crate::cli;
 use crate::files::tables::{ReliabilityRow, read_reliability};
-use crate::plot::{FailureCurve, FailureProbability};
+use crate::plot::{FailureCurve, FailureProbability, with_unit};
+use crate::quantity::Quantity;
+use crate::scenario::{LimitKind, LimitSpec, ReliabilitySpec, Scenario};
 
 /// A limit by a method, in columns.
 struct Columns {
@@ -31,10 +33,21 @@ pub(super) fn failure_probability(args: &cli::Plot) -> Result<Image> {
             .iter()
             .filter(|row| only.is_none_or(|name| row.limit == name)),
     );
+    let spec = table
+        .provenance
+        .as_ref()
+        .and_then(|p| p.scenario.as_deref())
+        .and_then(|text| Scenario::from_text("scenario", text).ok())
+        .and_then(|scenario| scenario.reliability().ok());
+    let names: Vec<String> = columns
+        .iter()
+        .map(|c| in_words(&c.limit, spec.as_ref()))
+        .collect();
     let curves: Vec<FailureCurve<'_>> = columns
         .iter()
-        .map(|c| FailureCurve {
-            limit: &c.limit,
+        .zip(&names)
+        .map(|(c, name)| FailureCurve {
+            limit: name,
             method: &c.method,
             times: &c.times,
             failure_probability: &c.failure,
@@ -42,12 +55,42 @@ pub(super) fn failure_probability(args: &cli::Plot) -> Result<Image> {
             upper: &c.upper,
         })
         .collect();
+    let confidence: Vec<String> = spec
+        .iter()
+        .map(|spec| format!("bounds at {} confidence", percent(spec.confidence)))
+        .collect();
     let page = page(
         "Probability of failure".to_owned(),
         table.provenance.as_ref(),
-        &[],
+        &confidence,
     );
     FailureProbability { curves: &curves }.draw(&page)
+}
+
+/// A limit as `deflection: |bridge/midspan/displacement| > 95.5 mm`, where the scenario knows it.
+fn in_words(name: &str, spec: Option<&ReliabilitySpec>) -> String {
+    let limit = spec.and_then(|spec| spec.limit.iter().find(|limit| limit.name == name));
+    let Some(LimitSpec {
+        quantity,
+        kind,
+        threshold,
+        ..
+    }) = limit
+    else {
+        return name.to_owned();
+    };
+    let unit = Quantity::named(quantity).map_or("", |quantity| quantity.unit());
+    let threshold = with_unit(*threshold, unit);
+    match kind {
+        LimitKind::Absolute => format!("{name}: |{quantity}| > {threshold}"),
+        LimitKind::Upper => format!("{name}: {quantity} > {threshold}"),
+        LimitKind::Lower => format!("{name}: {quantity} < {threshold}"),
+    }
+}
+
+/// A fraction as `95 %`.
+fn percent(fraction: f64) -> String {
+    format!("{} %", with_unit(100.0 * fraction, ""))
 }
 
 fn columns<'a>(rows: impl Iterator<Item = &'a ReliabilityRow>) -> Vec<Columns> {
