@@ -2,14 +2,18 @@
 
 use super::statistics::{LEVELS, Moments, PowerSums, Weighted};
 use super::{Bins, Curve, Nodes, Smoothing, smooth};
-use crate::Result;
 use crate::response::{Block, Responses, effective_count};
+use crate::{Result, interrupt};
 use rayon::prelude::*;
 
 /// Up to so many points the sums run over the points themselves.
 pub const EXACT_POINTS: usize = 8192;
 /// Samples or bins that are held at a time (bytes): more cells take further passes.
 const MEMORY: usize = 192 << 20;
+/// Cells whose curves are held at a time.
+const TOGETHER: usize = 64;
+/// The most nodes of a common grid.
+const COMMON_NODES: f64 = 8192.0;
 /// Bins in a smoothing width.
 const BINS_PER_WIDTH: f64 = 6.0;
 /// A spread below this share of the largest response at any time is rounding: a response that is
@@ -21,7 +25,8 @@ const ROUNDING: f64 = 1e-14;
 pub enum Grid {
     /// Each time has its own.
     Own,
-    /// One for all times of a quantity.
+    /// One for all times of a quantity, of at most 8192 nodes: a width that they do not resolve is
+    /// widened to twice their spacing.
     Common,
 }
 
@@ -61,30 +66,24 @@ pub fn estimate(
         effective_count: effective_count(source.probability()),
     };
     let cells = quantities.len() * source.times().len();
-    match options.grid {
-        Grid::Own => estimator.windows(cells, |estimator, first, cells| {
-            let results: Vec<_> = cells
+    let nodes = match options.grid {
+        Grid::Own => vec![None; quantities.len()],
+        Grid::Common => estimator.common_nodes(cells)?,
+    };
+    let times = source.times().len();
+    estimator.windows(cells, |estimator, first, cells| {
+        for (part, cells) in cells.chunks(TOGETHER).enumerate() {
+            interrupt::check()?;
+            let first = first + part * TOGETHER;
+            let results: Vec<TimeDensity> = cells
                 .par_iter()
                 .enumerate()
-                .map(|(k, cell)| estimator.result(first + k, cell, None))
+                .map(|(k, cell)| estimator.result(first + k, cell, nodes[(first + k) / times]))
                 .collect();
-            results.into_iter().try_for_each(&mut take)
-        }),
-        Grid::Common => {
-            let nodes = estimator.common_nodes(cells)?;
-            estimator.windows(cells, |estimator, first, cells| {
-                let results: Vec<_> = cells
-                    .par_iter()
-                    .enumerate()
-                    .map(|(k, cell)| {
-                        let quantity = (first + k) / estimator.source.times().len();
-                        estimator.result(first + k, cell, nodes[quantity])
-                    })
-                    .collect();
-                results.into_iter().try_for_each(&mut take)
-            })
+            results.into_iter().try_for_each(&mut take)?;
         }
-    }
+        Ok(())
+    })
 }
 
 /// A quantity at a time: its sums, and its samples one by one or in bins.
@@ -344,7 +343,10 @@ impl Estimator<'_> {
     }
 
     fn result(&self, index: usize, cell: &Cell, nodes: Option<Nodes>) -> TimeDensity {
-        let moments = self.moments(cell);
+        let mut moments = self.moments(cell);
+        if let (Some(nodes), Samples::Each(_) | Samples::Bins(_)) = (nodes, &cell.samples) {
+            moments.smoothing_width = moments.smoothing_width.max(2.0 * nodes.spacing);
+        }
         let width = moments.smoothing_width;
         let nodes = nodes.unwrap_or_else(|| {
             Nodes::covering(
@@ -375,7 +377,8 @@ impl Estimator<'_> {
         }
     }
 
-    /// For each quantity the nodes that cover all of its times and resolve the smallest width.
+    /// For each quantity the nodes that cover all of its times and resolve the smallest width, or as
+    /// much of it as the most nodes can.
     fn common_nodes(&self, cells: usize) -> Result<Vec<Option<Nodes>>> {
         let mut extents =
             vec![(f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY); self.quantities.len()];
@@ -397,6 +400,7 @@ impl Estimator<'_> {
         Ok(extents
             .into_iter()
             .map(|(least, largest, width)| {
+                let width = width.max(2.0 * (largest - least) / COMMON_NODES);
                 (least < largest).then(|| Nodes::covering(least, largest, width, points))
             })
             .collect())

@@ -208,3 +208,29 @@ fn rounding_beside_the_scale_is_no_spread() {
         assert!(results[1].curve.is_some());
     }
 }
+
+#[test]
+fn a_common_grid_widens_what_it_can_not_resolve() {
+    let mut held = normal(984, 1e-3);
+    held.values[0][0] = held.values[0][1]
+        .iter()
+        .map(|x| 5.0 + 1e-7 * (x - 5.0))
+        .collect();
+    let common = Options {
+        grid: Grid::Common,
+        ..options(Smoothing::Silverman)
+    };
+    let results = run(&held, common);
+    let curves: Vec<_> = results.iter().map(|r| r.curve.as_ref().unwrap()).collect();
+    assert_eq!(curves[0].nodes, curves[1].nodes);
+    assert!(curves[0].density.len() < 9000);
+    assert!(results[0].moments.smoothing_width >= 2.0 * curves[0].nodes.spacing);
+    for curve in curves {
+        let trapezium: f64 = curve
+            .density
+            .windows(2)
+            .map(|p| 0.5 * (p[0] + p[1]) * curve.nodes.spacing)
+            .sum();
+        assert!((trapezium - 1.0).abs() < 1e-6);
+    }
+}

@@ -32,6 +32,9 @@ pub fn identify(path: &Path) -> Result<Kind> {
                 BadInput::new(path.display().to_string(), "", expected, "no such file").into(),
             );
         }
+        Err(e) if e.kind() == std::io::ErrorKind::IsADirectory => {
+            return Err(BadInput::new(path.display().to_string(), "", expected, "a folder").into());
+        }
         Err(e) => return Err(Error::io(path, "can't read", e)),
         Ok(_) => {}
     }

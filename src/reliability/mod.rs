@@ -10,8 +10,11 @@
 //! ```
 //!
 //! The absorbing condition's smoothed density leaks over the threshold at each instant; R(t) is the
-//! least value so far, since what has failed stays failed. Smoothing biases P_f = 1 − R by about
-//! −σ² p′(b)/2, upward where the density falls: the width stands beside every value.
+//! least value so far, since what has failed stays failed. Smoothing biases P_f = 1 − R, p the density
+//! of the extreme: by about −σ² p′(b)/2 for the extreme value, and upward by about σ p(b)/√(2π), of first
+//! order, for the absorbing condition, since what leaks out of the safe set is not made up by
+//! what has left it. Counting has no bias: take it first, and the others as what the smoothing costs.
+//! The width stands beside every value.
 //! Source: J. B. Chen, J. Li, Struct. Saf. 29 (2007) 77-93 (extreme value); J. Li, J. B. Chen,
 //! Stochastic Dynamics of Structures (2009), ch. 8 (absorbing condition).
 //!

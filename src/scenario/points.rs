@@ -14,7 +14,7 @@ pub struct PointsSpec {
     /// Rule by which the representative points are chosen.
     pub rule: RuleKind,
     /// Number of representative points, before any truncation.
-    #[schemars(range(min = 1))]
+    #[schemars(range(min = 1, max = 100_000_000))]
     pub count: u32,
     /// Half-width within which points of each two-dimensional lattice are kept (standard deviations). Points with a
     /// normal beyond it are dropped, and the rest rescaled to unit variance. With the rule `partially-stratified` and

@@ -17,11 +17,11 @@ fn keys_and_values() {
     );
     excite(
         "--set points.count=many",
-        "--set: points.count: expected a whole number of at least 1, found \"many\"",
+        "--set: points.count: expected a whole number of at least 1 and at most 100000000, found \"many\"",
     );
     excite(
         "--count 0",
-        "--set: points.count: expected a whole number of at least 1, found 0",
+        "--set: points.count: expected a whole number of at least 1 and at most 100000000, found 0",
     );
     excite(
         "--set irregularity.length=nan",
