@@ -2,6 +2,7 @@
 
 use super::kernel::Kernel;
 use super::lanes::{Aligned, LANES};
+use super::state::State;
 use super::strip::Strip;
 use crate::system::{CrossingTables, InitialState};
 use std::ops::Range;
@@ -10,17 +11,6 @@ use std::ops::Range;
 const CHUNK: usize = 128;
 /// No deflection, heave or travel is this large (m).
 const BOUND: f64 = 1e6;
-
-/// The states of a batch: modes, deck under the wheel, vehicle.
-#[derive(Debug, Clone)]
-pub(super) struct State {
-    /// Planes of `[mode][lane]`.
-    pub modal: [Aligned; 3],
-    /// Predicted displacement of the deck under the wheel.
-    pub deck: Aligned,
-    /// Heave's three states, travel's three, and N: `[7][lane]` (one row spare).
-    pub vehicle: Aligned,
-}
 
 /// A run that left all bounds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -175,28 +165,6 @@ impl<'a> Batch<'a> {
         Divergence {
             lane: 0,
             step: last,
-        }
-    }
-}
-
-impl State {
-    fn new(modes: usize) -> Self {
-        let plane = || Aligned::new(modes * LANES);
-        State {
-            modal: [plane(), plane(), plane()],
-            deck: Aligned::new(LANES),
-            vehicle: Aligned::new(8 * LANES),
-        }
-    }
-
-    fn copy_from(&mut self, other: &State) {
-        let from = other.modal.iter().chain([&other.deck, &other.vehicle]);
-        let to = self
-            .modal
-            .iter_mut()
-            .chain([&mut self.deck, &mut self.vehicle]);
-        for (to, from) in to.zip(from) {
-            to.values_mut().copy_from_slice(from.values());
         }
     }
 }

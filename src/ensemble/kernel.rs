@@ -1,8 +1,8 @@
 //! The coupled step, in vectors of lanes. See [`crate::system::Crossing`] for its equations.
 
-use super::batch::State;
 use super::lanes::{Dense2, Dense3, LANES, Row, Step, TwoStep, TwoStepVelocity, each, load, store};
 use super::sample::{Sample, combine};
+use super::state::State;
 use super::strip::Strip;
 use super::suspension::{self, Compliance};
 use super::vehicle::{Forces, Vehicle};

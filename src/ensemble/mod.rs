@@ -10,6 +10,7 @@ mod kernel;
 mod lanes;
 mod path;
 mod sample;
+mod state;
 mod strip;
 mod suspension;
 mod vehicle;

@@ -1,7 +1,7 @@
 //! The vehicle's lanes: heave and travel, and the forces that move them.
 
-use super::batch::State;
 use super::lanes::{LANES, Row, Step, each, load, store};
+use super::state::State;
 use crate::integrate::Propagator;
 use crate::system::CrossingTables;
 use pulp::Simd;
