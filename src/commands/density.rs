@@ -7,7 +7,7 @@ use crate::cli;
 use crate::density::{Moments, Options, TimeDensity, estimate};
 use crate::files::recording::Recordings;
 use crate::files::tables::{DensityWriter, MomentsRow, MomentsWriter};
-use crate::files::{Kind, OutputFile, Provenance};
+use crate::files::{Kind, OutputFile};
 
 pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
     let mut outputs = vec![("--output", args.output.output.as_path())];
@@ -31,16 +31,7 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
         recordings.times().len(),
         options.smoothing.name()
     ));
-    let stamp = |kind| {
-        let inputs = responses::inputs(&recordings);
-        Provenance::stamp(
-            kind,
-            Some(scenario.text()),
-            responses::seed(&recordings),
-            &inputs,
-            &[],
-        )
-    };
+    let stamp = |kind| responses::stamp(kind, &recordings, &scenario);
     let clobber = !args.output.no_clobber;
     let units = responses::units(&recordings);
     let output = OutputFile::create(&args.output.output, clobber)?;

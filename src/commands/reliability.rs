@@ -6,7 +6,7 @@ use crate::Result;
 use crate::cli;
 use crate::files::recording::{Axis, Recordings};
 use crate::files::tables::{DensityWriter, ReliabilityRow, ReliabilityWriter, Units};
-use crate::files::{Kind, OutputFile, Provenance};
+use crate::files::{Kind, OutputFile};
 use crate::reliability::{Limit, LimitResult, Method, Options, first_passage};
 use crate::scenario::{ReliabilitySpec, Scenario};
 
@@ -26,16 +26,7 @@ pub(super) fn run(context: &Context, args: &cli::Reliability) -> Result<()> {
         confidence: spec.confidence,
         points_per_time: scenario.density()?.points_per_time as usize,
     };
-    let stamp = |kind| {
-        let inputs = responses::inputs(&recordings);
-        Provenance::stamp(
-            kind,
-            Some(scenario.text()),
-            responses::seed(&recordings),
-            &inputs,
-            &[],
-        )
-    };
+    let stamp = |kind| responses::stamp(kind, &recordings, &scenario);
     let units: Units = limits
         .iter()
         .map(|limit| {

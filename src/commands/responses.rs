@@ -5,6 +5,7 @@ use crate::Result;
 use crate::cli::OptionalScenarioArgs;
 use crate::files::recording::{Axis, Recordings};
 use crate::files::tables::Units;
+use crate::files::{Kind, Provenance};
 use crate::response::{Block, Responses};
 use crate::scenario::{Compression, Precision, Scenario, SimulationSpec};
 use std::path::PathBuf;
@@ -102,24 +103,14 @@ pub(super) fn units(recordings: &Recordings) -> Units {
         .collect()
 }
 
-/// The identities of the recordings.
-pub(super) fn inputs(recordings: &Recordings) -> Vec<String> {
-    recordings
-        .members()
-        .map(|member| {
-            member
-                .provenance
-                .map(|p| p.identity.clone())
-                .unwrap_or_default()
-        })
-        .collect()
-}
-
-/// The seed of the recordings.
-pub(super) fn seed(recordings: &Recordings) -> Option<u64> {
-    recordings
-        .members()
-        .find_map(|member| member.provenance.and_then(|p| p.seed))
+/// The stamp of a table made from recordings.
+pub(super) fn stamp(kind: Kind, recordings: &Recordings, scenario: &Scenario) -> Provenance {
+    let stamps = || recordings.members().map(|member| member.provenance);
+    let inputs: Vec<String> = stamps()
+        .map(|stamp| stamp.map(|p| p.identity.clone()).unwrap_or_default())
+        .collect();
+    let seed = stamps().find_map(|stamp| stamp.and_then(|p| p.seed));
+    Provenance::stamp(kind, Some(scenario.text()), seed, &inputs, &[])
 }
 
 /// The indices of quantities by name, in the recording's order; all where none are named.

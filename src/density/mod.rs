@@ -15,6 +15,7 @@
 //! memory does not grow with the number of points.
 
 mod bins;
+mod cells;
 mod estimate;
 mod kernel;
 mod smoothing;

@@ -70,8 +70,8 @@ impl Synthesis {
     pub fn new(field: &SpectralRepresentation, grid: Grid) -> Self {
         let products = (field.amplitudes().len() * grid.count) as f64;
         let length = transform_length(field.amplitudes().len() + grid.count - 1) as f64;
-        // Measured: a butterfly costs as much as some eight multiply-adds of the product.
-        let method = if products <= 16.0 * length * length.log2() {
+        // Measured for 512 wavenumbers on 200 positions: 5.4 us of products, 8.5 us of transforms.
+        let method = if products <= 22.0 * length * length.log2() {
             Method::MatrixProduct
         } else {
             Method::ChirpTransform

@@ -1,0 +1,242 @@
+//! The responses of quantities at times, collected from a stream of blocks: point by point where
+//! they are few, in bins where they are many, as much at a time as memory holds.
+
+use super::estimate::{EXACT_POINTS, Options};
+use super::{Bins, PowerSums};
+use crate::Result;
+use crate::response::{Block, Responses};
+use rayon::prelude::*;
+
+/// Samples or bins that are held at a time (bytes): more cells take further passes.
+const MEMORY: usize = 192 << 20;
+/// Bins in a smoothing width.
+const BINS_PER_WIDTH: f64 = 6.0;
+/// A spread below this share of the largest response at any time is rounding: a response that is
+/// zero at the start, but for the last digit of what cancels there.
+const ROUNDING: f64 = 1e-14;
+
+/// A quantity at a time: its sums, and its samples one by one or in bins.
+#[derive(Debug, Clone)]
+pub(super) struct Cell {
+    pub sums: PowerSums,
+    pub samples: Samples,
+}
+
+#[derive(Debug, Clone)]
+pub(super) enum Samples {
+    Each(Vec<f64>),
+    Bins(Bins),
+    /// No spread.
+    One,
+}
+
+/// Collects cells and makes densities of them.
+pub(super) struct Estimator<'a> {
+    pub source: &'a dyn Responses,
+    pub quantities: &'a [usize],
+    pub options: Options,
+    pub effective_count: f64,
+}
+
+impl Estimator<'_> {
+    /// Collects the cells, as many at a time as memory holds.
+    pub fn windows(
+        &self,
+        cells: usize,
+        mut work: impl FnMut(&Self, usize, &[Cell]) -> Result<()>,
+    ) -> Result<()> {
+        let points = self.source.probability().len();
+        if points <= EXACT_POINTS {
+            let window = (MEMORY / (8 * points.max(1))).clamp(1, cells.max(1));
+            let scales = if window < cells {
+                Some(self.scales(&self.sums(cells)?))
+            } else {
+                None
+            };
+            for first in (0..cells).step_by(window) {
+                let mut held = self.collect(first, window.min(cells - first))?;
+                let own = || self.scales(&held.iter().map(|cell| cell.sums).collect::<Vec<_>>());
+                let scales = scales.clone().unwrap_or_else(own);
+                self.still(first, &mut held, &scales);
+                work(self, first, &held)?;
+            }
+            return Ok(());
+        }
+        let sums = self.sums(cells)?;
+        let scales = self.scales(&sums);
+        let mut first = 0;
+        while first < cells {
+            let mut bytes = 0;
+            let count = sums[first..]
+                .iter()
+                .take_while(|sums| {
+                    bytes += 8 * self.bins_of(sums);
+                    bytes <= MEMORY
+                })
+                .count()
+                .max(1);
+            let mut held = self.fill(first, &sums[first..first + count])?;
+            self.still(first, &mut held, &scales);
+            work(self, first, &held)?;
+            first += count;
+        }
+        Ok(())
+    }
+
+    /// The largest absolute value of each quantity, from the sums of all cells.
+    fn scales(&self, sums: &[PowerSums]) -> Vec<f64> {
+        sums.chunks(self.source.times().len().max(1))
+            .map(|sums| sums.iter().map(PowerSums::size).fold(0.0, f64::max))
+            .collect()
+    }
+
+    /// Cells whose spread is rounding beside their quantity's scale are without spread.
+    fn still(&self, first: usize, cells: &mut [Cell], scales: &[f64]) {
+        let times = self.source.times().len();
+        for (k, cell) in cells.iter_mut().enumerate() {
+            let scale = scales[(first + k) / times];
+            if cell.sums.largest - cell.sums.least <= ROUNDING * scale {
+                cell.samples = Samples::One;
+            }
+        }
+    }
+
+    /// All points of `count` cells from the cell `first` on.
+    fn collect(&self, first: usize, count: usize) -> Result<Vec<Cell>> {
+        let points = self.source.probability().len();
+        let mut values = vec![vec![0.0; points]; count];
+        self.scan(first, &mut values, |values, block| {
+            values[block.first_point..block.first_point + block.values.len()]
+                .copy_from_slice(block.values);
+        })?;
+        let probability = self.source.probability();
+        let cell = |values: Vec<f64>| {
+            let mut sums = PowerSums::default();
+            sums.add(&values, probability);
+            let samples = if sums.has_spread() {
+                Samples::Each(values)
+            } else {
+                Samples::One
+            };
+            Cell { sums, samples }
+        };
+        Ok(values.into_par_iter().map(cell).collect())
+    }
+
+    /// Sums of all cells.
+    fn sums(&self, cells: usize) -> Result<Vec<PowerSums>> {
+        let mut sums = vec![PowerSums::default(); cells];
+        let probability = self.source.probability();
+        self.scan(0, &mut sums, |sums, block| {
+            let points = block.first_point..block.first_point + block.values.len();
+            sums.add(block.values, &probability[points]);
+        })?;
+        Ok(sums)
+    }
+
+    /// Bins of the cells from `first` on; where the width comes out much smaller than the deviation
+    /// promised, once more with finer ones.
+    fn fill(&self, first: usize, sums: &[PowerSums]) -> Result<Vec<Cell>> {
+        let cell = |sums: &PowerSums| Cell {
+            sums: *sums,
+            samples: if sums.has_spread() {
+                Samples::Bins(Bins::new(
+                    sums.least,
+                    sums.largest,
+                    self.first_spacing(sums),
+                ))
+            } else {
+                Samples::One
+            },
+        };
+        let mut cells: Vec<Cell> = sums.iter().map(cell).collect();
+        loop {
+            let probability = self.source.probability();
+            self.scan(first, &mut cells, |cell, block| {
+                if let Samples::Bins(bins) = &mut cell.samples {
+                    let points = block.first_point..block.first_point + block.values.len();
+                    bins.add(block.values, &probability[points]);
+                }
+            })?;
+            if !self.refine(&mut cells) {
+                return Ok(cells);
+            }
+        }
+    }
+
+    /// Empties all bins where any is too coarse for its width, and makes those finer.
+    fn refine(&self, cells: &mut [Cell]) -> bool {
+        let finer: Vec<Option<f64>> = cells
+            .iter()
+            .map(|cell| match &cell.samples {
+                Samples::Bins(bins) => {
+                    let width = self.moments(cell).smoothing_width;
+                    (bins.spacing() > width / (0.6 * BINS_PER_WIDTH))
+                        .then_some(width / BINS_PER_WIDTH)
+                }
+                Samples::Each(_) | Samples::One => None,
+            })
+            .collect();
+        if finer.iter().all(Option::is_none) {
+            return false;
+        }
+        for (cell, finer) in cells.iter_mut().zip(finer) {
+            if let Samples::Bins(bins) = &mut cell.samples {
+                let spacing = finer.unwrap_or(bins.spacing());
+                *bins = Bins::new(cell.sums.least, cell.sums.largest, spacing);
+            }
+        }
+        true
+    }
+
+    /// The spacing of the first bins, from the deviation alone.
+    fn first_spacing(&self, sums: &PowerSums) -> f64 {
+        let spread = sums.spread(f64::INFINITY, self.effective_count);
+        self.options.smoothing.width(&spread) / BINS_PER_WIDTH
+    }
+
+    fn bins_of(&self, sums: &PowerSums) -> usize {
+        if sums.has_spread() {
+            Bins::count(sums.least, sums.largest, self.first_spacing(sums))
+        } else {
+            0
+        }
+    }
+
+    /// Feeds each block to its state; blocks of one cell in their order, cells in parallel.
+    fn scan<T: Send>(
+        &self,
+        first: usize,
+        states: &mut [T],
+        feed: impl Fn(&mut T, &Block<'_>) + Sync,
+    ) -> Result<()> {
+        let times = self.source.times().len();
+        let last = first + states.len();
+        let wanted: Vec<usize> = (first / times..last.div_ceil(times))
+            .map(|k| self.quantities[k])
+            .collect();
+        self.source.scan(&wanted, &mut |blocks| {
+            let mut of_cell: Vec<Vec<&Block<'_>>> = vec![Vec::new(); last - first];
+            for block in blocks {
+                for (k, _) in self
+                    .quantities
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, q)| **q == block.quantity)
+                {
+                    if let Some(list) = (k * times + block.time)
+                        .checked_sub(first)
+                        .and_then(|cell| of_cell.get_mut(cell))
+                    {
+                        list.push(block);
+                    }
+                }
+            }
+            states
+                .par_iter_mut()
+                .zip(of_cell)
+                .for_each(|(state, list)| list.iter().for_each(|block| feed(state, block)));
+            Ok(())
+        })
+    }
+}
