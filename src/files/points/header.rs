@@ -83,6 +83,14 @@ pub(super) fn components(input: &Input) -> Result<Vec<usize>> {
     Ok(components)
 }
 
+/// The column of our own variables.
+pub(super) fn variables(input: &Input) -> Option<usize> {
+    input.column(VARIABLES).filter(|column| {
+        let field = input.schema().field(*column);
+        is_list_of_numbers(field.data_type())
+    })
+}
+
 /// The columns of numbers that are neither point, probability nor pandas' index.
 pub(super) fn parameters(input: &Input) -> Vec<usize> {
     let fields = input.schema().fields();

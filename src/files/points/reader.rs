@@ -4,8 +4,10 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::columns::{ListColumn, PageColumn, plain_leaf};
-use super::header::{components, first_length, parameters, position, probability, too_few_rows};
-use super::{POSITION_START, POSITION_STEP, PROBABILITY, WEIGHTS};
+use super::header::{
+    components, first_length, parameters, position, probability, too_few_rows, variables,
+};
+use super::{POSITION_START, POSITION_STEP, PROBABILITY, ROW_GROUP, VARIABLES, WEIGHTS};
 use crate::files::parquet_input::{BatchReader, Input, Select, as_numbers};
 use crate::files::weights::check_probabilities;
 use crate::files::{Kind, Provenance, Weights};
@@ -30,6 +32,8 @@ pub struct ReadHeader {
     pub components: Vec<String>,
     /// The other columns of numbers, the random parameters: key and unit (empty if unknown).
     pub parameters: Vec<(String, String)>,
+    /// How many leading standard normals the file holds for each point; 0 without them.
+    pub variables: usize,
     /// The stamp; `None` for a file of another program.
     pub provenance: Option<Provenance>,
 }
@@ -95,6 +99,10 @@ impl PointsReader {
         )?;
         let positions = first_length(&input, components[0])?;
         let parameters = parameters(&input);
+        let variables = match variables(&input) {
+            Some(column) => first_length(&input, column)?,
+            None => 0,
+        };
         let fields = input.schema().fields();
         let name = |column: &usize| fields[*column].name().clone();
         let unit = |column: &usize| {
@@ -116,6 +124,7 @@ impl PointsReader {
                 .iter()
                 .map(|column| (name(column), unit(column)))
                 .collect(),
+            variables,
             provenance,
         };
         Ok(PointsReader {
@@ -129,6 +138,29 @@ impl PointsReader {
     /// What the file says about itself.
     pub fn header(&self) -> &ReadHeader {
         &self.header
+    }
+
+    /// The leading standard normals of all points, `[point][variable]`; empty without them.
+    ///
+    /// # Errors
+    /// Names the row of a list of another length, of a null or of a value that is not finite.
+    pub fn variables(&self) -> Result<Vec<f64>> {
+        let Some(column) = variables(&self.input) else {
+            return Ok(Vec::new());
+        };
+        let list = ListColumn {
+            place: self.input.place(),
+            name: VARIABLES.to_owned(),
+            width: self.header.variables,
+        };
+        let mut values = Vec::with_capacity(self.header.count as usize * list.width);
+        let mut row = 0;
+        for batch in self.input.reader(&[column], Select::all(ROW_GROUP))? {
+            let batch = batch?;
+            list.append_array(row, batch.column(0), &mut values)?;
+            row += batch.num_rows() as u64;
+        }
+        Ok(values)
     }
 
     /// Streams the points of `range` in batches of `batch_size` points (the last one may be smaller).

@@ -143,6 +143,8 @@ fn round_trip_over_several_row_groups_and_pages() {
         );
         assert_eq!(read.provenance.as_ref(), Some(&header.provenance));
         assert_eq!(read.probability, vec![1.0 / count as f64; count]);
+        assert_eq!(read.variables, header.variables);
+        assert!(reader.variables().unwrap() == lists(2, 0..count, header.variables));
         let end = count as u32;
         for range in [0..end, 1..2, end - 1..end, end / 2..end] {
             for batch_size in [1000, 4096, 100_000] {
