@@ -192,12 +192,13 @@ struct Filled {
 impl Run<'_> {
     /// Rows of a point: times and quantities.
     fn rows(&self) -> usize {
-        self.times.len() * self.tables.outputs.len()
+        self.times.len() * self.tables.maps.outputs.len()
     }
 
     /// Reads on one thread, steps on all, writes on another.
     fn execute(&self, writer: RecordingWriter) -> Result<()> {
-        let (band, block) = band_layout(self.times.len(), self.tables.outputs.len(), self.bytes);
+        let (band, block) =
+            band_layout(self.times.len(), self.tables.maps.outputs.len(), self.bytes);
         let bar = self.context.progress("simulate", self.range.len() as u64);
         std::thread::scope(|scope| {
             let (read, batches) = sync_channel::<Result<ReadBatch>>(1);
@@ -344,7 +345,7 @@ impl Run<'_> {
     }
 
     fn diverged(&self, point: usize, divergence: Divergence) -> Error {
-        let crossing = &self.tables.crossing;
+        let crossing = self.tables.crossing();
         let reason = if crossing.car.is_nonlinear() {
             "the time step is likely too long for the nonlinear suspension: make simulation.time_step smaller"
         } else {

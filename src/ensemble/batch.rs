@@ -1,10 +1,11 @@
 //! One batch of lanes from start to end.
 
 use super::kernel::Kernel;
-use super::lanes::{Aligned, LANES};
+use super::lanes::{Aligned, LANES, PerLane, Shared};
+use super::maps::{self, Program};
 use super::state::State;
 use super::strip::Strip;
-use crate::system::{CrossingTables, InitialState};
+use crate::system::{CrossingMaps, CrossingTables, InitialState};
 use std::ops::Range;
 
 /// Steps between two looks at whether the run is still bounded.
@@ -25,6 +26,12 @@ pub struct Divergence {
 #[derive(Debug)]
 pub struct Batch<'a> {
     tables: &'a CrossingTables,
+    program: Program,
+    /// Coefficients that all lanes share.
+    shared: Vec<f64>,
+    /// The maps of the lanes, where they differ, and their coefficients as rows.
+    lanes: Vec<CrossingMaps>,
+    rows: Vec<f64>,
     state: State,
     /// The state at the start of a chunk.
     saved: State,
@@ -34,14 +41,28 @@ pub struct Batch<'a> {
 
 impl<'a> Batch<'a> {
     pub fn new(tables: &'a CrossingTables) -> Self {
-        let state = State::new(tables.modal.len());
+        let state = State::new(tables.maps.modal.len());
         Batch {
             tables,
+            program: Program::new(&tables.maps, tables.frame.varied),
+            shared: maps::flatten(&tables.maps),
+            lanes: Vec::new(),
+            rows: Vec::new(),
             saved: state.clone(),
             state,
             irregularity: Aligned::new(CHUNK * LANES),
             arch: pulp::Arch::new(),
         }
+    }
+
+    /// Gives each lane maps of its own from the next run on, made by the tables' frame (the last ones also to
+    /// lanes that are left over); none to have all lanes share the tables' again.
+    pub fn vary(&mut self, lanes: Vec<CrossingMaps>) {
+        self.rows.clear();
+        if !lanes.is_empty() {
+            maps::rows(&lanes, &mut self.rows);
+        }
+        self.lanes = lanes;
     }
 
     /// Runs all steps. `irregularity` fills `[step][lane]` (m) for a range of steps; the strip takes
@@ -54,7 +75,7 @@ impl<'a> Batch<'a> {
         if strip.width() == LANES {
             return self.run_full(irregularity, strip);
         }
-        let rows = self.tables.crossing.times().len() * self.tables.outputs.len();
+        let rows = self.tables.crossing().times().len() * self.tables.maps.outputs.len();
         let mut block = vec![0.0; rows * LANES];
         let mut full = Strip::cut(&mut block, LANES, LANES);
         self.run_full(irregularity, &mut full[0])?;
@@ -71,7 +92,7 @@ impl<'a> Batch<'a> {
         mut irregularity: impl FnMut(Range<usize>, &mut [f64]),
         strip: &mut Strip<'_>,
     ) -> Result<(), Divergence> {
-        let total = self.tables.crossing.steps + 1;
+        let total = self.tables.crossing().steps + 1;
         for first in (0..total).step_by(CHUNK) {
             let steps = first..(first + CHUNK).min(total);
             irregularity(
@@ -92,49 +113,60 @@ impl<'a> Batch<'a> {
 
     /// Steps of the current chunk, of which the first has its irregularity in row `row`.
     fn step(&mut self, steps: Range<usize>, row: usize, strip: &mut Strip<'_>) {
-        self.arch.dispatch(Kernel {
-            tables: self.tables,
-            irregularity: &self.irregularity.values()[row * LANES..(row + steps.len()) * LANES],
-            steps,
-            state: &mut self.state,
-            strip,
-        });
+        let (tables, program, state) = (self.tables, &self.program, &mut self.state);
+        let irregularity = &self.irregularity.values()[row * LANES..(row + steps.len()) * LANES];
+        if self.lanes.is_empty() {
+            let coefficients = Shared(&self.shared);
+            self.arch.dispatch(Kernel {
+                tables,
+                program,
+                coefficients,
+                state,
+                steps,
+                irregularity,
+                strip,
+            });
+        } else {
+            let coefficients = PerLane(&self.rows);
+            self.arch.dispatch(Kernel {
+                tables,
+                program,
+                coefficients,
+                state,
+                steps,
+                irregularity,
+                strip,
+            });
+        }
     }
 
     /// States at the start, for each lane's irregularity under the wheel.
     fn start(&mut self) {
-        let tables = self.tables;
-        let car = &tables.crossing.car;
-        let eta: [f64; LANES] = std::array::from_fn(|lane| self.irregularity.values()[lane]);
-        let (dynamic, height) = match tables.crossing.initial_state {
-            InitialState::Level => (eta.map(|e| car.tyre_stiffness * e), [0.0; LANES]),
-            InitialState::Profile => ([0.0; LANES], eta),
-        };
-        let contact = dynamic.map(|p| tables.weight + p);
-        let deck = &mut self.state.deck.values_mut()[..LANES];
-        deck.fill(0.0);
-        for (mode, map) in tables.modal.iter().enumerate() {
-            let (load, shape) = (tables.load[mode], tables.shape[mode]);
-            for (plane, start) in self.state.modal.iter_mut().zip(map.start) {
-                let row = &mut plane.values_mut()[mode * LANES..(mode + 1) * LANES];
-                for (value, force) in row.iter_mut().zip(contact) {
-                    *value = start[2] * load * force;
-                }
-            }
-            for (value, force) in deck.iter_mut().zip(contact) {
-                *value -= shape * map.compliance * load * force;
-            }
-        }
-        let vehicle = self.state.vehicle.values_mut();
-        vehicle.fill(0.0);
+        self.state.vehicle.values_mut().fill(0.0);
         for lane in 0..LANES {
-            let heave = tables
-                .heave
-                .initial(height[lane], 0.0, dynamic[lane] / car.mass());
-            let travel = tables
-                .travel
-                .initial(0.0, 0.0, -dynamic[lane] / car.wheel_mass);
-            for (k, value) in heave.into_iter().chain(travel).enumerate() {
+            let last = self.lanes.len().saturating_sub(1);
+            let maps = self.lanes.get(lane.min(last)).unwrap_or(&self.tables.maps);
+            let car = &maps.crossing.car;
+            let eta = self.irregularity.values()[lane];
+            let (dynamic, height) = match maps.crossing.initial_state {
+                InitialState::Level => (car.tyre_stiffness * eta, 0.0),
+                InitialState::Profile => (0.0, eta),
+            };
+            let contact = maps.lightness * (maps.weight + dynamic);
+            let mut deck = 0.0;
+            for (mode, map) in maps.modal.iter().enumerate() {
+                let force = self.tables.load[mode] * contact;
+                for (plane, start) in self.state.modal.iter_mut().zip(map.start) {
+                    plane.values_mut()[mode * LANES + lane] = start[2] * force;
+                }
+                deck -= self.tables.shape[mode] * map.compliance * force;
+            }
+            self.state.deck.values_mut()[lane] = deck;
+            let heave = maps.heave.initial(height, 0.0, dynamic / car.mass());
+            let travel = maps.travel.initial(0.0, 0.0, -dynamic / car.wheel_mass);
+            let states = heave.into_iter().chain(travel);
+            let vehicle = self.state.vehicle.values_mut();
+            for (k, value) in states.enumerate() {
                 vehicle[k * LANES + lane] = value;
             }
         }

@@ -8,6 +8,7 @@
 mod batch;
 mod kernel;
 mod lanes;
+mod maps;
 mod path;
 mod sample;
 mod state;

@@ -4,7 +4,7 @@ use super::*;
 use crate::integrate::Integrator;
 use crate::quantity::{BridgeResponse, Motion, Quantity, VehiclePart};
 use crate::system::tests::paper_case;
-use crate::system::{Beam, BumpStop, Crossing, InitialState};
+use crate::system::{Beam, BumpStop, Crossing, CrossingMaps, InitialState};
 
 fn midspan(response: BridgeResponse) -> Quantity {
     Quantity::Bridge {
@@ -31,11 +31,20 @@ fn run(
     eta: impl Fn(f64) -> f64,
 ) -> Vec<Vec<[f64; LANES]>> {
     let tables = crossing.tables(quantities);
+    run_batch(&mut Batch::new(&tables), crossing, quantities, eta)
+}
+
+fn run_batch(
+    batch: &mut Batch<'_>,
+    crossing: &Crossing,
+    quantities: &[Quantity],
+    eta: impl Fn(f64) -> f64,
+) -> Vec<Vec<[f64; LANES]>> {
     let positions = crossing.positions();
     let records = crossing.times().len();
     let mut block = vec![0.0; records * quantities.len() * LANES];
     let mut strips = Strip::cut(&mut block, LANES, LANES);
-    Batch::new(&tables)
+    batch
         .run(
             |steps, rows| {
                 for (n, row) in steps.zip(rows.chunks_exact_mut(LANES)) {
@@ -316,4 +325,66 @@ fn a_run_without_bound_is_named() {
         divergence.step > 10 && divergence.step < 200,
         "{divergence:?}"
     );
+}
+
+/// Parameters that differ from lane to lane, every one of bridge and vehicle.
+fn varied(nominal: &Crossing, lane: usize) -> Crossing {
+    let mut crossing = nominal.clone();
+    let factor = |k: usize| 1.0 + 0.2 * ((7 * lane + 3 * k) as f64).sin();
+    let (beam, car) = (&mut crossing.beam, &mut crossing.car);
+    beam.mass_per_length *= factor(1);
+    beam.flexural_rigidity *= factor(2);
+    beam.damping_ratio = 0.02 * (factor(3) - 0.7);
+    car.body_mass *= factor(4);
+    car.wheel_mass *= factor(5);
+    car.suspension_stiffness *= factor(6);
+    car.suspension_damping *= factor(7);
+    car.suspension_cubic_stiffness *= factor(8);
+    car.suspension_quadratic_damping *= factor(9);
+    car.tyre_stiffness *= factor(10);
+    if let Some(stop) = &mut car.bump_stop {
+        stop.gap *= factor(11);
+        stop.stiffness *= factor(12);
+    }
+    crossing
+}
+
+#[test]
+fn a_lane_with_parameters_of_its_own_runs_as_it_would_alone() {
+    let quantities = [
+        deflection(),
+        midspan(BridgeResponse::Motion(Motion::Acceleration)),
+        midspan(BridgeResponse::BendingMoment),
+        body(Motion::Velocity),
+        body(Motion::Acceleration),
+        Quantity::ContactForce,
+    ];
+    let eta = |x: f64| 5e-3 * (0.9 * x).cos();
+    for integrator in Integrator::ALL {
+        let mut linear = paper_case(integrator, 0.005);
+        linear.beam.damping_ratio = 0.01;
+        for nominal in [linear, nonlinear(integrator, 0.005)] {
+            let tables = nominal.varied_tables(&quantities);
+            // Fewer than there are lanes: the rest repeats the last one.
+            let lanes = LANES - 3;
+            let maps = (0..lanes)
+                .map(|lane| CrossingMaps::new(&varied(&nominal, lane), &tables.frame))
+                .collect();
+            let mut batch = Batch::new(&tables);
+            batch.vary(maps);
+            let together = run_batch(&mut batch, &nominal, &quantities, eta);
+            for lane in [0, 1, lanes - 1, LANES - 1] {
+                let alone = varied(&nominal, lane.min(lanes - 1));
+                let tables = alone.varied_tables(&quantities);
+                let single = run_batch(&mut Batch::new(&tables), &alone, &quantities, eta);
+                for (k, (rows, expected)) in together.iter().zip(&single).enumerate() {
+                    let size = expected.iter().map(|r| r[lane].abs()).fold(0.0, f64::max);
+                    for (row, wanted) in rows.iter().zip(expected) {
+                        let error = (row[lane] - wanted[lane]).abs();
+                        assert!(error < 1e-9 * size, "{integrator:?} {k} {lane}: {error:e}");
+                    }
+                }
+            }
+        }
+    }
 }

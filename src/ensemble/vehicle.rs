@@ -1,16 +1,13 @@
 //! The vehicle's lanes: heave and travel, and the forces that move them.
 
-use super::lanes::{LANES, Row, Step, each, load, store};
-use super::state::State;
-use crate::integrate::Propagator;
-use crate::system::CrossingTables;
+use super::lanes::{Coefficients, LANES, Row, Step, each};
+use super::maps::{HEAVE_MAP, LIFT, RATIO, SQUEEZE, TRAVEL_MAP};
 use pulp::Simd;
 
-/// Heave and travel of the vehicle, predicted, and the suspension's N.
-pub(super) struct Vehicle<S: Simd, const W: usize> {
-    pub heave: [Row<S, W>; 3],
-    pub travel: [Row<S, W>; 3],
-    pub suspension: Row<S, W>,
+/// Heave and travel of the vehicle, predicted, and the suspension's N: rows of the batch's memory.
+/// (In locals they would end up on the stack, where vectors straddle cache lines.)
+pub(super) struct Vehicle<'a, S: Simd, const W: usize> {
+    rows: &'a mut [Row<S, W>; 7],
 }
 
 /// The forces of a step.
@@ -23,68 +20,64 @@ pub(super) struct Forces<S: Simd, const W: usize> {
     pub suspension: Row<S, W>,
 }
 
-impl<S: Simd, const W: usize> Vehicle<S, W> {
+impl<'a, S: Simd, const W: usize> Vehicle<'a, S, W> {
+    /// From heave's three states, travel's three, and N: `[7][lane]` at least.
     #[inline(always)]
-    pub fn load(simd: S, state: &State) -> Self {
-        let rows = state.vehicle.values();
+    pub fn new(values: &'a mut [f64]) -> Self {
+        let vectors = S::as_mut_simd_f64s(&mut values[..7 * LANES]).0;
+        let rows = vectors.as_chunks_mut::<W>().0;
         Vehicle {
-            heave: [
-                load(simd, rows),
-                load(simd, &rows[LANES..]),
-                load(simd, &rows[2 * LANES..]),
-            ],
-            travel: [
-                load(simd, &rows[3 * LANES..]),
-                load(simd, &rows[4 * LANES..]),
-                load(simd, &rows[5 * LANES..]),
-            ],
-            suspension: load(simd, &rows[6 * LANES..]),
+            rows: rows.try_into().expect("seven rows of lanes"),
         }
     }
 
+    /// The states of the heave.
     #[inline(always)]
-    pub fn store(&self, simd: S, state: &mut State) {
-        let rows = self
-            .heave
-            .iter()
-            .chain(&self.travel)
-            .chain([&self.suspension]);
-        for (k, row) in rows.enumerate() {
-            store(&mut state.vehicle.values_mut()[k * LANES..], row, simd);
-        }
+    pub fn heave(&self) -> [&Row<S, W>; 3] {
+        [&self.rows[0], &self.rows[1], &self.rows[2]]
+    }
+
+    /// The states of the travel.
+    #[inline(always)]
+    pub fn travel(&self) -> [&Row<S, W>; 3] {
+        [&self.rows[3], &self.rows[4], &self.rows[5]]
+    }
+
+    /// One of the heave's three states and the travel's three.
+    #[inline(always)]
+    pub fn state(&self, index: usize) -> &Row<S, W> {
+        &self.rows[index]
+    }
+
+    /// N of the step before.
+    #[inline(always)]
+    pub fn suspension(&self) -> &Row<S, W> {
+        &self.rows[6]
     }
 
     #[inline(always)]
     pub fn advance<H: Step, V: Step, const NONLINEAR: bool>(
         &mut self,
         simd: S,
-        tables: &CrossingTables,
+        from: impl Coefficients,
         forces: &Forces<S, W>,
     ) {
-        oscillate::<S, W, H>(
-            simd,
-            &tables.heave,
-            &mut self.heave,
-            tables.heave_load,
-            &forces.dynamic,
-        );
-        let squeeze = tables.travel_load;
+        let [h0, h1, h2, t0, t1, t2, suspension] = &mut *self.rows;
+        let lift: Row<S, W> = from.row(simd, LIFT);
+        let heave = H::load(simd, from, HEAVE_MAP);
+        oscillate::<S, W, H>(simd, &heave, [h0, h1, h2], &lift, &forces.dynamic);
+        let squeeze: Row<S, W> = from.row(simd, SQUEEZE);
+        let travel = V::load(simd, from, TRAVEL_MAP);
         if NONLINEAR {
             // −P/m₂ − N/μ = −(P + N m₂/μ)/m₂.
-            let car = &tables.crossing.car;
-            let ratio = simd.splat_f64s(car.wheel_mass / car.reduced_mass());
-            let force =
-                each!(simd, j => simd.mul_add_f64s(ratio, forces.suspension[j], forces.dynamic[j]));
-            oscillate::<S, W, V>(simd, &tables.travel, &mut self.travel, squeeze, &force);
-            self.suspension = forces.suspension;
+            let ratio: Row<S, W> = from.row(simd, RATIO);
+            let force = each!(simd, j => {
+                simd.mul_add_f64s(ratio[j], forces.suspension[j], forces.dynamic[j])
+            });
+            oscillate::<S, W, V>(simd, &travel, [t0, t1, t2], &squeeze, &force);
+            *suspension = forces.suspension;
         } else {
-            oscillate::<S, W, V>(
-                simd,
-                &tables.travel,
-                &mut self.travel,
-                squeeze,
-                &forces.dynamic,
-            );
+            oscillate::<S, W, V>(simd, &travel, [t0, t1, t2], &squeeze, &forces.dynamic);
         }
     }
 }
@@ -93,17 +86,19 @@ impl<S: Simd, const W: usize> Vehicle<S, W> {
 #[inline(always)]
 fn oscillate<S: Simd, const W: usize, V: Step>(
     simd: S,
-    map: &Propagator,
-    x: &mut [Row<S, W>; 3],
-    factor: f64,
+    map: &V::Map<S, W>,
+    [x0, x1, x2]: [&mut Row<S, W>; 3],
+    factor: &Row<S, W>,
     force: &Row<S, W>,
 ) {
-    let factor = factor * V::unit(map);
     for j in 0..W {
-        let free = V::free(simd, map, [x[0][j], x[1][j], x[2][j]]);
-        let next = V::push(simd, map, factor, force[j], free);
-        for (plane, value) in x.iter_mut().zip(next) {
-            plane[j] = value;
+        let third = if V::STATES == 3 { x2[j] } else { x0[j] };
+        let free = V::free(simd, map, j, [x0[j], x1[j], third]);
+        let next = V::push(simd, map, j, factor[j], force[j], free);
+        x0[j] = next[0];
+        x1[j] = next[1];
+        if V::STATES == 3 {
+            x2[j] = next[2];
         }
     }
 }

@@ -72,31 +72,76 @@ impl Crossing {
 
     /// Everything that all points share, for the quantities to be recorded.
     pub fn tables(&self, quantities: &[Quantity]) -> CrossingTables {
-        CrossingTables::new(self, quantities)
+        CrossingTables::new(
+            self,
+            Frame::new(self, quantities, self.beam.damping_ratio > 0.0),
+        )
+    }
+
+    /// The same for an ensemble whose points differ in parameters of bridge or vehicle; the bridge
+    /// may be damped in some of them.
+    pub fn varied_tables(&self, quantities: &[Quantity]) -> CrossingTables {
+        CrossingTables::new(self, Frame::new(self, quantities, true))
     }
 }
 
-/// Shared coefficients of the lockstep kernel; rows of `modes` values for each step 0 ..= steps.
+/// What the maps of all points of an ensemble have in common: the patterns of their states, the units of
+/// their modal coordinates, and the quantities.
 #[derive(Debug, Clone)]
-pub struct CrossingTables {
+pub struct Frame {
+    /// Whether parameters differ from point to point; a bridge without damping may then have some.
+    pub varied: bool,
+    quantities: Vec<Quantity>,
+    /// Whether modes carry their velocity.
+    modal_velocity: bool,
+    /// Whether the heave does.
+    heave_velocity: bool,
+    /// One a mode.
+    units: Vec<f64>,
+    /// Modal mass of the nominal bridge (kg), whose loads the step tables hold.
+    mass: f64,
+}
+
+impl Frame {
+    fn new(crossing: &Crossing, quantities: &[Quantity], varied: bool) -> Self {
+        let damped = varied || crossing.beam.damping_ratio > 0.0;
+        let records = |motion| quantities.iter().any(|q| motion_of(q) == Some(motion));
+        let rolls = quantities.iter().any(|q| {
+            matches!(
+                q,
+                Quantity::Vehicle {
+                    motion: Motion::Velocity,
+                    ..
+                }
+            )
+        });
+        let modal_velocity = damped && records(Motion::Acceleration) || records(Motion::Velocity);
+        Frame {
+            varied,
+            quantities: quantities.to_vec(),
+            modal_velocity,
+            heave_velocity: modal_velocity || rolls,
+            units: crossing.propagators().iter().map(unit).collect(),
+            mass: crossing.beam.mass(),
+        }
+    }
+}
+
+/// What a run has besides its step tables: maps that depend on parameters, not on the step.
+#[derive(Debug, Clone)]
+pub struct CrossingMaps {
     pub crossing: Crossing,
-    /// One a mode, in modal coordinates with a unit of their own (see `scale`).
+    /// One a mode, in the frame's modal coordinates.
     pub modal: Vec<Propagator>,
     pub heave: Propagator,
     pub travel: Propagator,
-    /// φᵢ(ξₙ) times the mode's scale; zero off the bridge.
-    pub shape: Vec<f64>,
-    /// The force on mode i under a unit contact force (1/kg).
-    pub load: Vec<f64>,
-    /// The displacement that F(n) gives the deck under the wheel at n+1 (m/N).
-    pub carry: Vec<f64>,
-    /// K at each step (N/m).
-    pub contact_stiffness: Vec<f64>,
-    /// C_b W at each step (m).
-    pub static_offset: Vec<f64>,
+    pub outputs: Vec<OutputMap>,
+    /// The nominal bridge's modal mass over this one's.
+    pub lightness: f64,
+    /// C_v (m/N).
+    pub wheel_compliance: f64,
     /// C_N (m/N), and the travel and its rate under a unit N, with P's reaction left out.
     pub travel_compliance: f64,
-    pub outputs: Vec<OutputMap>,
     /// W (N).
     pub weight: f64,
     /// m₁/M.
@@ -107,109 +152,41 @@ pub struct CrossingTables {
     pub travel_load: f64,
 }
 
-impl CrossingTables {
-    fn new(crossing: &Crossing, quantities: &[Quantity]) -> Self {
-        let needs_velocity = crossing.beam.damping_ratio > 0.0
-            && quantities
-                .iter()
-                .any(|q| matches!(motion_of(q), Some(Motion::Acceleration)))
-            || quantities
-                .iter()
-                .any(|q| matches!(motion_of(q), Some(Motion::Velocity)));
-        let rolls = quantities.iter().any(|q| {
-            matches!(
-                q,
-                Quantity::Vehicle {
-                    motion: Motion::Velocity,
-                    ..
-                }
-            )
-        });
+impl CrossingMaps {
+    /// The maps of one point of an ensemble.
+    pub fn new(crossing: &Crossing, frame: &Frame) -> Self {
+        let plain = |keep: bool, map: Propagator| if keep { map } else { map.without_velocity() };
+        let car = &crossing.car;
         let heave = crossing
             .integrator
-            .propagator(crossing.car.heave(), crossing.time_step);
-        let full = crossing.propagators();
-        let scales: Vec<f64> = full.iter().map(scale).collect();
-        let modal: Vec<Propagator> = full
-            .iter()
-            .map(|p| {
-                if needs_velocity {
-                    *p
-                } else {
-                    p.without_velocity()
-                }
-            })
-            .zip(&scales)
-            .map(|(p, s)| p.scaled(*s))
-            .collect();
-        let (beam, car) = (&crossing.beam, &crossing.car);
-        let (mut shape, mut load) = (Vec::new(), Vec::new());
-        for position in crossing.positions() {
-            for (i, s) in (1..=beam.modes).zip(&scales) {
-                let phi = beam.shape(i, position);
-                shape.push(phi * s);
-                load.push(-phi / beam.mass());
-            }
-        }
-        let mut tables = CrossingTables {
+            .propagator(car.heave(), crossing.time_step);
+        let travel = crossing
+            .integrator
+            .propagator(car.travel(), crossing.time_step);
+        let modal = crossing.propagators().into_iter().zip(&frame.units);
+        let mut maps = CrossingMaps {
             crossing: crossing.clone(),
-            heave: if needs_velocity || rolls {
-                heave
-            } else {
-                heave.without_velocity()
-            },
-            travel: crossing
-                .integrator
-                .propagator(car.travel(), crossing.time_step),
-            modal,
-            shape,
-            load,
-            carry: Vec::new(),
-            contact_stiffness: Vec::new(),
-            static_offset: Vec::new(),
-            travel_compliance: 0.0,
+            modal: modal
+                .map(|(map, unit)| plain(frame.modal_velocity, map).scaled(*unit))
+                .collect(),
+            heave: plain(frame.heave_velocity, heave),
+            travel,
             outputs: Vec::new(),
+            lightness: frame.mass / crossing.beam.mass(),
+            wheel_compliance: heave.compliance / car.mass()
+                + car.wheel_share() * travel.compliance / car.wheel_mass,
+            travel_compliance: car.wheel_share() * travel.compliance / car.reduced_mass(),
             weight: crossing.weight(),
             wheel_share: car.wheel_share(),
             heave_load: 1.0 / car.mass(),
             travel_load: -1.0 / car.wheel_mass,
         };
-        tables.couple();
-        tables.outputs = quantities
+        maps.outputs = frame
+            .quantities
             .iter()
-            .map(|q| OutputMap::new(&tables, &scales, q))
+            .map(|q| OutputMap::new(&maps, &frame.units, q))
             .collect();
-        tables
-    }
-
-    /// Fills what follows from shapes, loads and compliances.
-    fn couple(&mut self) {
-        let modes = self.modal.len();
-        let car = &self.crossing.car;
-        self.travel_compliance = car.wheel_share() * self.travel.compliance / car.reduced_mass();
-        let wheel = self.heave.compliance / car.mass()
-            + car.wheel_share() * self.travel.compliance / car.wheel_mass;
-        let steps = self.crossing.steps;
-        for n in 0..=steps {
-            let here = n * modes..(n + 1) * modes;
-            let deck: f64 = here
-                .clone()
-                .zip(&self.modal)
-                .map(|(k, map)| self.shape[k] * map.compliance * self.load[k])
-                .sum();
-            let stiffness = car.tyre_stiffness;
-            self.contact_stiffness
-                .push(stiffness / (1.0 + stiffness * (wheel - deck)));
-            self.static_offset.push(deck * self.weight);
-            let next = if n < steps {
-                here.zip(&self.modal)
-                    .map(|(k, map)| self.shape[k + modes] * map.push[0] * self.load[k])
-                    .sum()
-            } else {
-                0.0
-            };
-            self.carry.push(next);
-        }
+        maps
     }
 
     /// The displacement of wheel and travel under forces, by the vehicle's planes.
@@ -229,6 +206,121 @@ impl CrossingTables {
     }
 }
 
+/// Shared coefficients of the lockstep kernel; rows of `modes` values for each step 0 ..= steps.
+#[derive(Debug, Clone)]
+pub struct CrossingTables {
+    pub frame: Frame,
+    pub maps: CrossingMaps,
+    /// φᵢ(ξₙ) times the mode's unit; zero off the bridge.
+    pub shape: Vec<f64>,
+    /// The force on mode i under a unit contact force (1/kg).
+    pub load: Vec<f64>,
+    /// The displacement that F(n) gives the deck under the wheel at n+1 (m/N).
+    pub carry: Vec<f64>,
+    /// K at each step (N/m).
+    pub contact_stiffness: Vec<f64>,
+    /// C_b W at each step (m).
+    pub static_offset: Vec<f64>,
+    /// For each output that has one, the share of F(n).
+    pub feeds: Vec<Vec<f64>>,
+    /// For each output that has one, the truncated modes' static share of a unit force.
+    pub influences: Vec<Vec<f64>>,
+}
+
+impl CrossingTables {
+    fn new(crossing: &Crossing, frame: Frame) -> Self {
+        let maps = CrossingMaps::new(crossing, &frame);
+        let beam = &crossing.beam;
+        let (mut shape, mut load) = (Vec::new(), Vec::new());
+        for position in crossing.positions() {
+            for (i, unit) in (1..=beam.modes).zip(&frame.units) {
+                let phi = beam.shape(i, position);
+                shape.push(phi * unit);
+                load.push(-phi / beam.mass());
+            }
+        }
+        let mut tables = CrossingTables {
+            frame,
+            maps,
+            shape,
+            load,
+            carry: Vec::new(),
+            contact_stiffness: Vec::new(),
+            static_offset: Vec::new(),
+            feeds: Vec::new(),
+            influences: Vec::new(),
+        };
+        tables.couple();
+        tables.feed();
+        tables
+    }
+
+    /// The parameters and the time axis.
+    pub fn crossing(&self) -> &Crossing {
+        &self.maps.crossing
+    }
+
+    /// Fills what follows from shapes, loads and compliances.
+    fn couple(&mut self) {
+        let maps = &self.maps;
+        let modes = maps.modal.len();
+        let steps = maps.crossing.steps;
+        let stiffness = maps.crossing.car.tyre_stiffness;
+        for n in 0..=steps {
+            let here = n * modes..(n + 1) * modes;
+            let deck: f64 = here
+                .clone()
+                .zip(&maps.modal)
+                .map(|(k, map)| self.shape[k] * map.compliance * self.load[k])
+                .sum();
+            self.contact_stiffness
+                .push(stiffness / (1.0 + stiffness * (maps.wheel_compliance - deck)));
+            self.static_offset.push(deck * maps.weight);
+            let next = if n < steps {
+                here.zip(&maps.modal)
+                    .map(|(k, map)| self.shape[k + modes] * map.push[0] * self.load[k])
+                    .sum()
+            } else {
+                0.0
+            };
+            self.carry.push(next);
+        }
+    }
+
+    /// Fills the outputs' shares of the contact force.
+    fn feed(&mut self) {
+        let modes = self.maps.modal.len();
+        let positions = self.maps.crossing.positions();
+        for output in &self.maps.outputs {
+            let (mut feed, mut influence) = (Vec::new(), Vec::new());
+            if let OutputMap::Bridge {
+                forces, statics, ..
+            } = output
+            {
+                if let Some((x, _)) = statics {
+                    let beam = &self.maps.crossing.beam;
+                    influence = positions
+                        .iter()
+                        .map(|position| beam.truncated_moment(*x, *position))
+                        .collect();
+                }
+                let factor = statics.map_or(0.0, |(_, factor)| factor);
+                feed = self
+                    .load
+                    .chunks_exact(modes)
+                    .enumerate()
+                    .map(|(n, load)| {
+                        let modal: f64 = forces.iter().zip(load).map(|(f, l)| f * l).sum();
+                        modal + factor * influence.get(n).copied().unwrap_or(0.0)
+                    })
+                    .collect();
+            }
+            self.feeds.push(feed);
+            self.influences.push(influence);
+        }
+    }
+}
+
 fn motion_of(quantity: &Quantity) -> Option<Motion> {
     match quantity {
         Quantity::Bridge {
@@ -243,7 +335,7 @@ fn motion_of(quantity: &Quantity) -> Option<Motion> {
 }
 
 /// The modal coordinate's unit: b₀ for the two-step patterns, whose force then needs no factor.
-fn scale(map: &Propagator) -> f64 {
+fn unit(map: &Propagator) -> f64 {
     match map.pattern {
         Pattern::TwoStep | Pattern::TwoStepVelocity => map.push[0],
         Pattern::Dense2 | Pattern::Dense3 => 1.0,

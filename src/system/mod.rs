@@ -11,7 +11,7 @@ mod quarter_car;
 mod stability;
 
 pub use beam::{Beam, Section};
-pub use crossing::{Crossing, CrossingTables, InitialState};
+pub use crossing::{Crossing, CrossingMaps, CrossingTables, Frame, InitialState};
 pub use output::{OutputMap, VehicleMap};
 pub use quarter_car::{BumpStop, QuarterCar};
 pub use stability::{largest_stable_step, spectral_radius};

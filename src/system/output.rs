@@ -1,18 +1,20 @@
 //! Responses as linear maps of the kernel's state: a row of coefficients for each.
 
-use super::{Beam, CrossingTables, QuarterCar};
+use super::{Beam, CrossingMaps, QuarterCar};
 use crate::integrate::Propagator;
 use crate::quantity::{BridgeResponse, Motion, Quantity, VehiclePart};
 
 /// How a recorded quantity follows from the predicted state and the forces of a step.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OutputMap {
-    /// Σ coefficient x[plane][mode] + feed(n) F(n).
+    /// Σ terms x[plane][mode] + Σ forces f[mode] + statics F(n).
     Bridge {
-        /// (mode, coefficient) in each plane, zeros left out.
-        terms: [Vec<(usize, f64)>; 3],
-        /// One a step.
-        feed: Vec<f64>,
+        /// One a mode in each plane in use.
+        terms: [Vec<f64>; 3],
+        /// The share of each mode's force fᵢ.
+        forces: Vec<f64>,
+        /// Position (m) and factor of the truncated modes' static moment.
+        statics: Option<(f64, f64)>,
     },
     /// heave·x_c + travel·x_δ + p P + n N.
     Vehicle {
@@ -28,22 +30,22 @@ pub enum OutputMap {
 }
 
 impl OutputMap {
-    pub(super) fn new(tables: &CrossingTables, scales: &[f64], quantity: &Quantity) -> Self {
+    pub(super) fn new(maps: &CrossingMaps, units: &[f64], quantity: &Quantity) -> Self {
         match quantity {
             Quantity::Bridge { section, response } => {
-                let beam = &tables.crossing.beam;
+                let beam = &maps.crossing.beam;
                 let position = beam
                     .all_sections()
                     .find(|s| &s.name == section)
                     .map_or(0.5 * beam.span, |s| s.position);
                 BridgeRow {
-                    tables,
-                    scales,
+                    maps,
+                    units,
                     position,
                 }
                 .map(*response)
             }
-            Quantity::Vehicle { part, motion } => tables.vehicle().map(*part, *motion),
+            Quantity::Vehicle { part, motion } => maps.vehicle().map(*part, *motion),
             Quantity::ContactForce => OutputMap::ContactForce,
             Quantity::Irregularity => OutputMap::Irregularity,
         }
@@ -51,14 +53,14 @@ impl OutputMap {
 }
 
 struct BridgeRow<'a> {
-    tables: &'a CrossingTables,
-    scales: &'a [f64],
+    maps: &'a CrossingMaps,
+    units: &'a [f64],
     position: f64,
 }
 
 impl BridgeRow<'_> {
     fn beam(&self) -> &Beam {
-        &self.tables.crossing.beam
+        &self.maps.crossing.beam
     }
 
     fn map(&self, response: BridgeResponse) -> OutputMap {
@@ -90,7 +92,7 @@ impl BridgeRow<'_> {
         let stiffness = oscillator.frequency.powi(2);
         let damping = 2.0 * oscillator.decay;
         // In the coordinate q/s, f(n) has the share 1/s.
-        let own = 1.0 / self.scales[mode - 1];
+        let own = 1.0 / self.units[mode - 1];
         let (q, q_f) = displacement(map);
         if damping == 0.0 {
             return (q.map(|c| -stiffness * c), own - stiffness * q_f);
@@ -107,39 +109,38 @@ impl BridgeRow<'_> {
             let (state, force) = displacement(map);
             (state.map(|c| c * shape), force * shape)
         });
-        if let OutputMap::Bridge { feed, .. } = &mut row {
-            for (f, position) in feed.iter_mut().zip(self.tables.crossing.positions()) {
-                *f += factor * self.beam().truncated_moment(x, position);
-            }
+        if let OutputMap::Bridge { statics, .. } = &mut row {
+            *statics = Some((x, factor));
         }
         row
     }
 
     /// Collects (coefficients of x, coefficient of the modal force) of every mode.
     fn rows(&self, of_mode: impl Fn(usize, &Propagator) -> ([f64; 3], f64)) -> OutputMap {
-        let modes = self.tables.modal.len();
-        let mut terms: [Vec<(usize, f64)>; 3] = Default::default();
-        let mut feed = vec![0.0; self.tables.crossing.steps + 1];
-        for (index, map) in self.tables.modal.iter().enumerate() {
+        let mut terms: [Vec<f64>; 3] = Default::default();
+        let mut forces = Vec::new();
+        for (index, map) in self.maps.modal.iter().enumerate() {
             let (state, force) = of_mode(index + 1, map);
-            let scale = self.scales[index];
+            let unit = self.units[index];
             for (plane, c) in state.into_iter().enumerate().take(map.pattern.states()) {
-                terms[plane].push((index, c * scale));
+                terms[plane].push(c * unit);
             }
-            for (n, f) in feed.iter_mut().enumerate() {
-                *f += force * scale * self.tables.load[n * modes + index];
-            }
+            forces.push(force * unit);
         }
         // √2 sin(iπ/2) of an even mode is zero but for rounding.
-        let largest = terms
-            .iter()
-            .flatten()
-            .map(|t| t.1.abs())
-            .fold(0.0, f64::max);
-        for plane in &mut terms {
-            plane.retain(|t| t.1.abs() > 1e-13 * largest);
+        for values in terms.iter_mut().chain([&mut forces]) {
+            let largest = values.iter().map(|t| t.abs()).fold(0.0, f64::max);
+            for value in values {
+                if value.abs() <= 1e-13 * largest {
+                    *value = 0.0;
+                }
+            }
         }
-        OutputMap::Bridge { terms, feed }
+        OutputMap::Bridge {
+            terms,
+            forces,
+            statics: None,
+        }
     }
 }
 

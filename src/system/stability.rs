@@ -64,10 +64,11 @@ fn radius_at(crossing: &Crossing, car: &QuarterCar, place: f64) -> f64 {
         ..crossing.clone()
     };
     let tables = still.tables(&[]);
-    let states = 3 * (tables.modal.len() + 2);
+    let modes = tables.maps.modal.len();
+    let states = 3 * (modes + 2);
     let mut map = DMatrix::zeros(states, states);
     for column in 0..states {
-        let mut x = vec![[0.0; 3]; tables.modal.len() + 2];
+        let mut x = vec![[0.0; 3]; modes + 2];
         x[column / 3][column % 3] = 1.0;
         for (row, value) in step(&tables, &x).iter().flatten().enumerate() {
             map[(row, column)] = *value;
@@ -81,17 +82,18 @@ fn radius_at(crossing: &Crossing, car: &QuarterCar, place: f64) -> f64 {
 
 /// One linear step of modes, heave and travel, without weight and irregularity.
 fn step(tables: &CrossingTables, x: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    let modes = tables.modal.len();
+    let maps = &tables.maps;
+    let modes = maps.modal.len();
     let (heave, travel) = (x[modes], x[modes + 1]);
-    let car = &tables.crossing.car;
+    let car = &maps.crossing.car;
     let deck: f64 = (0..modes).map(|i| tables.shape[i] * x[i][0]).sum();
     let gap = deck - (heave[0] - car.wheel_share() * travel[0]);
     let p = tables.contact_stiffness[0] * gap;
     (0..modes)
-        .map(|i| tables.modal[i].advance(x[i], tables.load[i] * p))
+        .map(|i| maps.modal[i].advance(x[i], tables.load[i] * p))
         .chain([
-            tables.heave.advance(heave, p / car.mass()),
-            tables.travel.advance(travel, -p / car.wheel_mass),
+            maps.heave.advance(heave, p / car.mass()),
+            maps.travel.advance(travel, -p / car.wheel_mass),
         ])
         .collect()
 }
