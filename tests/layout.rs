@@ -97,7 +97,12 @@ fn sliders_reach_every_point() {
     let layout = layout();
     let scenario = scenario();
     let waves = scenario.irregularity().unwrap().wavenumber.unwrap().count;
-    let points = scenario.points().unwrap().build(2 * waves as usize).count();
+    let points = scenario
+        .points()
+        .unwrap()
+        .build(2 * waves as usize, 0)
+        .unwrap()
+        .count();
     let mut variables = BTreeSet::new();
     for (id, panel) in panels(&layout) {
         if id.starts_with("GlobalVariableSliderPanel!") {

@@ -52,8 +52,7 @@ fn excitation(scenario: &Scenario, write: &mut impl FnMut(String)) -> Result<Opt
     scenario.check_truncation(&spec, &irregularity)?;
     let grid = scenario.irregularity_grid(&irregularity)?;
     let dimensions = variables(&irregularity);
-    // The number of points does not depend on the dimensions.
-    let count = spec.build(dimensions.min(2)).count();
+    let count = scenario.point_count(&spec, dimensions, 0)?;
     write(format!(
         "points: {count} by {} in {dimensions} standard normal variables",
         spec.rule.name()

@@ -8,6 +8,7 @@ use crate::irregularity::{
     Deterministic, Grid, PowerSpectralDensity, SpectralRepresentation, Synthesis, Tabulated,
 };
 use crate::probability::PointRule;
+use crate::probability::discrepancy::Quality;
 use crate::scenario::{
     DeterministicSpec, IrregularitySpec, ProfileSpec, Scenario, Sided, SpectrumSpec,
     SpectrumTableSpec, WavenumberUnit,
@@ -34,20 +35,7 @@ pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
         .field
         .as_ref()
         .map_or(0, SpectralRepresentation::dimensions);
-    let rule = points.build(dimensions);
-    if rule.count() == 0 {
-        let found = points.truncate_at.map_or_else(
-            || "none".to_owned(),
-            |at| format!("{at}, which leaves none"),
-        );
-        return Err(scenario
-            .bad(
-                "points.truncate_at",
-                "a truncation that leaves points",
-                found,
-            )
-            .into());
-    }
+    let rule = scenario.point_rule(&points, dimensions, 0)?;
     let header = PointsHeader {
         weights: Weights::Assigned,
         position_start: source.grid.start,
@@ -73,9 +61,30 @@ pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
         source.grid.start,
         source.describe(),
     ));
+    report(context, rule.as_ref());
     let output = OutputFile::create(&args.output.output, !args.output.no_clobber)?;
     let writer = PointsWriter::create(output, &header)?;
     write(context, rule.as_ref(), &source, writer)
+}
+
+/// What is to know about the points: their figures of merit where details are asked for.
+fn report(context: &Context, rule: &dyn PointRule) {
+    if let Some(note) = rule.note() {
+        context.note(note);
+    }
+    if context.general.verbose {
+        let quality = Quality::of(rule);
+        let over = match quality.dimensions {
+            leading if leading < rule.dimensions() => {
+                format!(" over the leading {leading} variables")
+            }
+            _ => String::new(),
+        };
+        context.detail(format!(
+            "generalised F-discrepancy {:.3e}{over}, effective number of points {:.1}",
+            quality.discrepancy, quality.effective_count
+        ));
+    }
 }
 
 fn load(args: &cli::Excite) -> Result<Scenario> {

@@ -1,6 +1,6 @@
 //! Points whose dimensions know nothing of each other: Monte Carlo, and Latin hypercubes.
 
-use super::{Permutation, PointRule, Purpose, open_unit, quantile, stream};
+use super::{Permutation, PointRule, Purpose, in_stratum, open_unit, quantile, stream};
 use rand::Rng;
 use std::ops::Range;
 
@@ -35,8 +35,8 @@ impl PointRule for MonteCarlo {
         let width = points.len();
         for (place, point) in points.enumerate() {
             let mut generator = stream(self.seed, Purpose::Point, point);
-            for dimension in 0..self.dimensions {
-                out[dimension * width + place] = quantile(open_unit(generator.next_u64()));
+            for row in out.chunks_exact_mut(width) {
+                row[place] = quantile(open_unit(generator.next_u64()));
             }
         }
     }
@@ -84,7 +84,7 @@ impl PointRule for LatinHypercube {
             permutation.images(points.clone(), &mut images);
             for (value, stratum) in row.iter_mut().zip(&images) {
                 let unit = open_unit(generator.next_u64());
-                *value = quantile((f64::from(*stratum) + unit) / self.count as f64);
+                *value = quantile(in_stratum(*stratum, unit, self.count));
             }
         }
     }

@@ -5,7 +5,8 @@
 //! sampling), with the lattice of [`super::Lattice`] in each two-dimensional subspace in place of
 //! random strata.
 
-use super::{Lattice, Permutation, PointRule, Purpose, quantile, stream};
+use super::subspaces::subspaces;
+use super::{Lattice, Permutation, PointRule, Purpose, RuleError, quantile, stream};
 use std::ops::Range;
 
 /// One lattice in each pair of dimensions.
@@ -14,33 +15,44 @@ pub struct PartiallyStratified {
     dimensions: usize,
     /// The lattice's points as standard normals.
     lattice: Vec<[f64; 2]>,
-    permutations: Vec<Permutation>,
+    /// The variables of each subspace, and the order of the lattice's points in it.
+    subspaces: Vec<(Range<usize>, Permutation)>,
 }
 
 impl PartiallyStratified {
     /// `count` lattice points, less those with a normal beyond `truncate_at` standard deviations; the
     /// rest is scaled back to unit variance in each coordinate. Of 377, 610 and 987 points a
-    /// truncation at 3 leaves 374, 607 and 984.
-    pub fn new(count: usize, truncate_at: Option<f64>, dimensions: usize, seed: u64) -> Self {
+    /// truncation at 3 leaves 374, 607 and 984. The leading `parameters` variables share no subspace with
+    /// the others; a variable alone in its subspace has the lattice's first coordinate.
+    ///
+    /// # Errors
+    /// A truncation that leaves no point.
+    pub fn new(
+        count: usize,
+        truncate_at: Option<f64>,
+        dimensions: usize,
+        parameters: usize,
+        seed: u64,
+    ) -> Result<Self, RuleError> {
         let rule = Lattice::best(count);
         let mut lattice: Vec<[f64; 2]> = (0..count).map(|k| rule.point(k).map(quantile)).collect();
         if let Some(bound) = truncate_at {
             lattice.retain(|x| x.iter().all(|x| x.abs() <= bound));
             rescale(&mut lattice);
         }
-        let subspaces = dimensions.div_ceil(2);
-        let permutations = if lattice.is_empty() {
-            Vec::new()
-        } else {
-            let draw =
-                |k| Permutation::random(lattice.len(), &mut stream(seed, Purpose::Permutation, k));
-            (0..subspaces).map(draw).collect()
-        };
-        PartiallyStratified {
-            dimensions,
-            lattice,
-            permutations,
+        if lattice.is_empty() {
+            return Err(RuleError::NothingLeft);
         }
+        let order =
+            |k| Permutation::random(lattice.len(), &mut stream(seed, Purpose::Permutation, k));
+        Ok(PartiallyStratified {
+            dimensions,
+            subspaces: subspaces(dimensions, parameters)
+                .enumerate()
+                .map(|(k, variables)| (variables, order(k)))
+                .collect(),
+            lattice,
+        })
     }
 }
 
@@ -73,15 +85,13 @@ impl PointRule for PartiallyStratified {
     fn standard_normals(&self, points: Range<usize>, out: &mut [f64]) {
         let width = points.len();
         let mut images = vec![0; width];
-        let subspaces = self.permutations.iter().zip(out.chunks_mut(2 * width));
-        for (permutation, rows) in subspaces {
+        let mut rows = out.chunks_exact_mut(width);
+        for (variables, permutation) in &self.subspaces {
             permutation.images(points.clone(), &mut images);
-            let (first, second) = rows.split_at_mut(width);
-            for (x, image) in first.iter_mut().zip(&images) {
-                *x = self.lattice[*image as usize][0];
-            }
-            for (y, image) in second.iter_mut().zip(&images) {
-                *y = self.lattice[*image as usize][1];
+            for (coordinate, row) in (0..variables.len()).zip(rows.by_ref()) {
+                for (x, image) in row.iter_mut().zip(&images) {
+                    *x = self.lattice[*image as usize][coordinate];
+                }
             }
         }
     }

@@ -1,21 +1,54 @@
 //! Every rule: standard normals, keyed by point, with its own law.
 
+use super::discrepancy::{Quality, effective_count, largest_deviation};
 use super::*;
 
-fn rules(count: usize, dimensions: usize) -> Vec<(&'static str, Box<dyn PointRule>)> {
+/// Every rule for a square count in many dimensions; the first three of them parameters.
+fn rules(count: usize, dimensions: usize, seed: u64) -> Vec<(&'static str, Box<dyn PointRule>)> {
+    let parameters = 3;
+    let sobol = || Box::new(Sobol::new(count, dimensions, seed).unwrap());
     vec![
         (
             "monte-carlo",
-            Box::new(MonteCarlo::new(count, dimensions, 7)),
+            Box::new(MonteCarlo::new(count, dimensions, seed)),
         ),
         (
             "latin-hypercube",
-            Box::new(LatinHypercube::new(count, dimensions, 7)),
+            Box::new(LatinHypercube::new(count, dimensions, seed)),
+        ),
+        ("sobol", sobol()),
+        (
+            "lattice",
+            Box::new(RankOneLattice::new(count, dimensions, seed).unwrap()),
         ),
         (
             "partially-stratified",
-            Box::new(PartiallyStratified::new(count, None, dimensions, 7)),
+            Box::new(PartiallyStratified::new(count, None, dimensions, parameters, seed).unwrap()),
         ),
+        (
+            "latinized-partially-stratified",
+            Box::new(
+                LatinizedPartiallyStratified::new(count, dimensions, parameters, seed).unwrap(),
+            ),
+        ),
+        (
+            "gf-discrepancy",
+            Box::new(GfDiscrepancy::new(count, dimensions).unwrap()),
+        ),
+        (
+            "moment matching",
+            Box::new(MomentMatched::new(sobol(), 4).unwrap()),
+        ),
+    ]
+}
+
+/// Of few dimensions, with cells or a grid.
+fn small_rules() -> Vec<(&'static str, Box<dyn PointRule>)> {
+    vec![
+        ("grid 1", Box::new(Grid::new(37, 1).unwrap())),
+        ("grid 2", Box::new(Grid::new(529, 2).unwrap())),
+        ("gf 1", Box::new(GfDiscrepancy::new(200, 1).unwrap())),
+        ("gf 4", Box::new(GfDiscrepancy::new(500, 4).unwrap())),
     ]
 }
 
@@ -26,28 +59,64 @@ fn all(rule: &dyn PointRule) -> Vec<f64> {
 }
 
 #[test]
-fn any_range_of_points_is_the_same_as_in_the_whole() {
-    for (name, rule) in rules(500, 7) {
+fn any_range_of_points_and_variables_is_the_same_as_in_the_whole() {
+    for (name, rule) in rules(529, 7, 7).into_iter().chain(small_rules()) {
+        let (n, s) = (rule.count(), rule.dimensions());
         let whole = all(rule.as_ref());
-        for range in [0..1, 13..200, 499..500] {
-            let mut part = vec![f64::NAN; range.len() * 7];
-            rule.standard_normals(range.clone(), &mut part);
-            for d in 0..7 {
-                let same = &whole[d * 500 + range.start..d * 500 + range.end];
-                assert_eq!(
-                    &part[d * range.len()..(d + 1) * range.len()],
-                    same,
-                    "{name} {d}"
-                );
+        for range in [0..1, 3..n / 2, n - 1..n] {
+            for leading in 1..=s {
+                let mut part = vec![f64::NAN; range.len() * leading];
+                rule.standard_normals(range.clone(), &mut part);
+                for d in 0..leading {
+                    let same = &whole[d * n + range.start..d * n + range.end];
+                    let found = &part[d * range.len()..(d + 1) * range.len()];
+                    assert_eq!(found, same, "{name} {d} of {leading}");
+                }
             }
         }
     }
 }
 
 #[test]
+fn seeds_differ_unless_the_rule_knows_no_chance() {
+    let pairs = rules(529, 7, 1).into_iter().zip(rules(529, 7, 2));
+    for ((name, first), (_, second)) in pairs {
+        let is_same = all(first.as_ref()) == all(second.as_ref());
+        assert_eq!(is_same, name == "gf-discrepancy", "{name}");
+    }
+}
+
+#[test]
+fn probabilities_sum_to_one() {
+    for (name, rule) in rules(529, 7, 7).into_iter().chain(small_rules()) {
+        let sum: f64 = (0..rule.count()).map(|q| rule.probability(q)).sum();
+        assert!((sum - 1.0).abs() < 1e-14, "{name} {sum}");
+    }
+}
+
+#[test]
+fn no_variables_are_no_error() {
+    for (name, rule) in [
+        (
+            "sobol",
+            Box::new(Sobol::new(10, 0, 1).unwrap()) as Box<dyn PointRule>,
+        ),
+        ("lattice", Box::new(RankOneLattice::new(10, 0, 1).unwrap())),
+        (
+            "gf-discrepancy",
+            Box::new(GfDiscrepancy::new(10, 0).unwrap()),
+        ),
+        ("grid", Box::new(Grid::new(10, 0).unwrap())),
+    ] {
+        assert_eq!((rule.count(), rule.note()), (10, None), "{name}");
+        rule.standard_normals(0..10, &mut []);
+    }
+}
+
+#[test]
 fn moments_are_those_of_independent_standard_normals() {
-    let (n, s) = (20_000, 6);
-    for (name, rule) in rules(n, s) {
+    let (n, s) = (19_881, 7);
+    for (name, rule) in rules(n, s, 7) {
         let x = all(rule.as_ref());
         let row = |d: usize| &x[d * n..(d + 1) * n];
         for i in 0..s {
@@ -69,17 +138,221 @@ fn moments_are_those_of_independent_standard_normals() {
     }
 }
 
+/// The place of each point among `strata` strata of equal probability.
+fn places(row: &[f64], strata: usize) -> Vec<usize> {
+    let place = |x: &f64| (cumulative(*x) * strata as f64) as usize;
+    row.iter().map(place).collect()
+}
+
+fn is_each_once(mut places: Vec<usize>) -> bool {
+    places.sort_unstable();
+    places.into_iter().enumerate().all(|(i, place)| i == place)
+}
+
 #[test]
 fn strata_are_filled_once_in_each_dimension() {
-    let n = 610;
-    for (name, rule) in rules(n, 5).into_iter().skip(1) {
+    // A power of two for Sobol points, a square for Latinized cells.
+    let n = 1024;
+    for (name, rule) in rules(n, 7, 7) {
+        let is_stratified = !["monte-carlo", "moment matching"].contains(&name);
         for row in all(rule.as_ref()).chunks_exact(n) {
-            let mut strata: Vec<usize> = row
-                .iter()
-                .map(|x| (cumulative(*x) * n as f64) as usize)
-                .collect();
-            strata.sort_unstable();
-            assert!(strata.iter().enumerate().all(|(i, s)| i == *s), "{name}");
+            assert_eq!(is_each_once(places(row, n)), is_stratified, "{name}");
+        }
+    }
+}
+
+#[test]
+fn latinized_cells_hold_one_point_in_each_subspace_and_are_paired_at_random() {
+    let (m, n) = (25, 625);
+    // Subspaces: 0 and 1; 2 alone; 3 and 4; 5 and 6.
+    let x = all(&LatinizedPartiallyStratified::new(n, 7, 3, 7).unwrap());
+    let cells = |first: usize, second: usize| -> Vec<usize> {
+        let coarse = |d: usize| places(&x[d * n..(d + 1) * n], m);
+        let pairs = coarse(first).into_iter().zip(coarse(second));
+        pairs.map(|(a, b)| a * m + b).collect()
+    };
+    for (first, second) in [(0, 1), (3, 4), (5, 6)] {
+        assert!(is_each_once(cells(first, second)));
+    }
+    for (first, second) in [(1, 2), (2, 3), (4, 5), (0, 3)] {
+        assert!(!is_each_once(cells(first, second)));
+    }
+    assert_ne!(cells(3, 4), cells(5, 6));
+}
+
+#[test]
+fn grids_are_the_middles_of_cells() {
+    let n = 49;
+    for (rule, axes) in [
+        (Grid::new(n, 1).unwrap(), [49, 1]),
+        (Grid::new(n, 2).unwrap(), [7, 7]),
+    ] {
+        let x = all(&rule);
+        for (d, row) in x.chunks_exact(n).enumerate() {
+            let cells = axes[if rule.dimensions() == 1 { 0 } else { d }] as f64;
+            for x in row {
+                // Half a cell off the borders, to rounding.
+                let place = cumulative(*x) * cells;
+                assert!((place - place.floor() - 0.5).abs() < 1e-13);
+            }
+        }
+        if rule.dimensions() == 2 {
+            let pairs = places(&x[..n], 7).into_iter().zip(places(&x[n..], 7));
+            assert!(is_each_once(pairs.map(|(a, b)| 7 * a + b).collect()));
+        } else {
+            assert!(is_each_once(places(&x, n)));
+        }
+    }
+}
+
+#[test]
+fn counts_and_dimensions_that_cannot_be_had_are_named() {
+    let squares = RuleError::Count {
+        expected: "a square number",
+        found: 984,
+        nearest: vec![961, 1024],
+    };
+    let error = LatinizedPartiallyStratified::new(984, 4, 0, 1).unwrap_err();
+    assert_eq!(error, squares);
+    assert_eq!(Grid::new(984, 2).unwrap_err(), squares);
+    assert!(Grid::new(984, 1).is_ok());
+    let dimensions = |most, found| RuleError::Dimensions { most, found };
+    assert_eq!(Grid::new(4, 3).unwrap_err(), dimensions(2, 3));
+    assert_eq!(Sobol::new(4, 4097, 1).unwrap_err(), dimensions(4096, 4097));
+    assert_eq!(
+        PartiallyStratified::new(4, Some(0.1), 2, 0, 1).unwrap_err(),
+        RuleError::NothingLeft
+    );
+    assert!(RankOneLattice::new(RankOneLattice::MOST_POINTS + 1, 2, 1).is_err());
+    assert!(GfDiscrepancy::new(GfDiscrepancy::MOST_POINTS + 1, 2).is_err());
+}
+
+#[test]
+fn the_discrepancy_falls_at_its_rate() {
+    for n in [64, 256, 1024] {
+        for (name, rule) in rules(n, 7, 3) {
+            let d = Quality::of(rule.as_ref()).discrepancy * n as f64;
+            let bounds = match name {
+                // Kolmogorov's law over seven dimensions, at levels of about 1e-6.
+                "monte-carlo" => [0.5 * (n as f64).sqrt(), 2.7 * (n as f64).sqrt()],
+                // The middles of strata.
+                "partially-stratified" | "gf-discrepancy" => [0.5, 0.5],
+                // Matching moves points by about the error of their covariance.
+                "moment matching" => [0.5, 0.2 * (n as f64).sqrt().max(15.0)],
+                // One point anywhere in each stratum.
+                _ => [0.5, 1.0],
+            };
+            assert!(
+                bounds[0] - 1e-12 <= d && d <= bounds[1] + 1e-12,
+                "{name} {n}: {d}"
+            );
+        }
+    }
+}
+
+#[test]
+fn deviations_count_weights_ties_and_both_sides() {
+    // All probability at 0: the distance is 1/2 on both sides.
+    let tied = [(0.0, 0.25), (0.0, 0.75)];
+    assert_eq!(largest_deviation(tied.into_iter()), 0.5);
+    // Jumps from 0 to 0.9 at Φ⁻¹(0.3), to 1 at Φ⁻¹(0.8): 0.6 above after the first.
+    let two = [(quantile(0.8), 0.1), (quantile(0.3), 0.9)];
+    assert!((largest_deviation(two.into_iter()) - 0.6).abs() < 1e-15);
+    // From 0 to 0.1 at Φ⁻¹(0.7): 0.7 below before it.
+    let late = [(quantile(0.7), 0.1), (quantile(0.75), 0.9)];
+    assert!((largest_deviation(late.into_iter()) - 0.7).abs() < 1e-15);
+    assert_eq!(effective_count(&[0.25; 4]), 4.0);
+    assert_eq!(effective_count(&[1.0, 0.0]), 1.0);
+}
+
+/// Weighted mean and second moments of the leading variables, by plain sums.
+fn moments(rule: &dyn PointRule, i: usize, j: usize) -> (f64, f64) {
+    let n = rule.count();
+    let x = all(rule);
+    let weighted = |q: usize| rule.probability(q) * x[i * n + q];
+    let mean = (0..n).map(weighted).sum();
+    (mean, (0..n).map(|q| weighted(q) * x[j * n + q]).sum())
+}
+
+#[test]
+fn matched_variables_have_their_mean_and_covariance() {
+    let matched = 3;
+    for (rule, s) in [
+        (
+            Box::new(MonteCarlo::new(700, 5, 1)) as Box<dyn PointRule>,
+            5,
+        ),
+        (Box::new(GfDiscrepancy::new(300, 3).unwrap()), 3),
+        (Box::new(MonteCarlo::new(matched + 1, 3, 2)), 3),
+    ] {
+        let rule = MomentMatched::new(rule, matched).unwrap();
+        for i in 0..s {
+            for j in 0..=i {
+                let (mean, product) = moments(&rule, i, j);
+                // Some hundred terms of about one, less well where there are hardly more points than variables.
+                assert!(mean.abs() < 1e-13);
+                if i < matched {
+                    let exact = f64::from(i == j);
+                    assert!((product - exact).abs() < 1e-12, "{i} {j} {product}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn matching_depends_on_no_thread() {
+    // More than one round of blocks.
+    let matched = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build().unwrap().install(|| {
+            let rule = Box::new(MonteCarlo::new(40_000, 5, 1));
+            let rule = MomentMatched::new(rule, 4).unwrap();
+            let mut out = vec![0.0; 5 * 100];
+            rule.standard_normals(39_900..40_000, &mut out);
+            out
+        })
+    };
+    assert_eq!(matched(1), matched(3));
+}
+
+#[test]
+fn matching_what_cannot_be_matched_is_refused() {
+    let rule = |n, s| Box::new(MonteCarlo::new(n, s, 1)) as Box<dyn PointRule>;
+    let error = |rule, matched| MomentMatched::new(rule, matched).err();
+    assert_eq!(
+        error(rule(10, 3), 4),
+        Some(RuleError::Matched { most: 3, found: 4 })
+    );
+    assert_eq!(
+        error(rule(3, 3), 3),
+        Some(RuleError::TooFewPoints {
+            matched: 3,
+            count: 3
+        })
+    );
+    let dependent = RuleError::Dependent { matched: 2 };
+    assert_eq!(error(Box::new(Line), 2), Some(dependent));
+    assert_eq!(error(Box::new(Line), 1), None);
+}
+
+/// Two variables that are one.
+struct Line;
+
+impl PointRule for Line {
+    fn count(&self) -> usize {
+        10
+    }
+
+    fn dimensions(&self) -> usize {
+        2
+    }
+
+    fn standard_normals(&self, points: std::ops::Range<usize>, out: &mut [f64]) {
+        for row in out.chunks_exact_mut(points.len()) {
+            for (x, q) in row.iter_mut().zip(points.clone()) {
+                *x = quantile((q as f64 + 0.5) / 10.0);
+            }
         }
     }
 }
@@ -87,7 +360,7 @@ fn strata_are_filled_once_in_each_dimension() {
 #[test]
 fn truncation_leaves_the_papers_counts_with_unit_variance() {
     for (asked, left) in [(377, 374), (610, 607), (987, 984), (233, 233), (1597, 1590)] {
-        let rule = PartiallyStratified::new(asked, Some(3.0), 4, 1);
+        let rule = PartiallyStratified::new(asked, Some(3.0), 4, 0, 1).unwrap();
         assert_eq!(rule.count(), left);
         for row in all(&rule).chunks_exact(left) {
             let mean = row.iter().sum::<f64>() / left as f64;
@@ -99,7 +372,7 @@ fn truncation_leaves_the_papers_counts_with_unit_variance() {
 
 #[test]
 fn subspaces_hold_the_same_lattice_in_different_orders() {
-    let rule = PartiallyStratified::new(377, None, 6, 3);
+    let rule = PartiallyStratified::new(377, None, 6, 0, 3).unwrap();
     let x = all(&rule);
     let pairs = |k: usize| -> Vec<[u64; 2]> {
         (0..377)

@@ -2,13 +2,12 @@
 
 use super::{
     BridgeSpec, FieldKind, FilterForm, GridKind, InitialState, IntegratorKind, IrregularitySpec,
-    LimitKind, PointsSpec, QuarterCarSpec, RuleKind, Scenario, SecondOrderFilterSpec,
-    SimulationSpec, SmoothingSpec, VehicleSpec,
+    LimitKind, QuarterCarSpec, Scenario, SecondOrderFilterSpec, SimulationSpec, SmoothingSpec,
+    VehicleSpec,
 };
 use crate::density::{self, Smoothing};
 use crate::integrate::Integrator;
 use crate::irregularity::{self, FieldForm, Grid, SecondOrderFilter};
-use crate::probability::{LatinHypercube, MonteCarlo, PartiallyStratified, PointRule};
 use crate::quantity::{BridgeResponse, Quantity};
 use crate::reliability::Side;
 use crate::system::{self, Beam, BumpStop, Crossing, QuarterCar, Section};
@@ -19,23 +18,6 @@ const MOST_POSITIONS: usize = 1_000_000;
 
 /// Time steps of a run, at most: what all points share is kept for each of them.
 const MOST_STEPS: f64 = 1e7;
-
-impl PointsSpec {
-    /// The rule for `dimensions` variables. Only a truncation can leave no point.
-    pub fn build(&self, dimensions: usize) -> Box<dyn PointRule> {
-        let (count, seed) = (self.count as usize, self.seed);
-        match self.rule {
-            RuleKind::MonteCarlo => Box::new(MonteCarlo::new(count, dimensions, seed)),
-            RuleKind::LatinHypercube => Box::new(LatinHypercube::new(count, dimensions, seed)),
-            RuleKind::PartiallyStratified => Box::new(PartiallyStratified::new(
-                count,
-                self.truncate_at,
-                dimensions,
-                seed,
-            )),
-        }
-    }
-}
 
 impl SecondOrderFilterSpec {
     pub fn build(&self) -> SecondOrderFilter {

@@ -39,7 +39,8 @@ fn keys_and_values() {
     excite(
         "--set points.rule=",
         "--set: points.rule: missing: rule by which the representative points are chosen; \
-         one of \"monte-carlo\", \"latin-hypercube\", \"partially-stratified\"",
+         one of \"monte-carlo\", \"latin-hypercube\", \"sobol\", \"lattice\", \"partially-stratified\", \
+         \"latinized-partially-stratified\", \"gf-discrepancy\", \"grid\"",
     );
 }
 

@@ -26,7 +26,7 @@ fn example() -> Scenario {
 /// A scenario that, with the example and what is in `KINDS`, has every key that there is.
 const FULL: &str = r#"
 title = "Every key"
-points = { rule = "partially-stratified", count = 987, truncate_at = 3, seed = 7 }
+points = { rule = "partially-stratified", count = 987, truncate_at = 3, moment_matching = 50, seed = 7 }
 
 [irregularity]
 spectrum = { kind = "table", file = "spectra/track.csv", sided = "one", unit = "cycles/m", wavenumber_column = "n", density_column = "G" }

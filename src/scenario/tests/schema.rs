@@ -154,5 +154,5 @@ fn every_choice_is_one_that_serde_knows() {
             }
         }
     }
-    assert_eq!(count, 27);
+    assert_eq!(count, 32);
 }
