@@ -121,7 +121,7 @@ fn simulation(
         crossing.car.speed,
         crossing.beam.span
     ));
-    if let Some(note) = super::simulate::ends_before_the_bridge(&crossing) {
+    if let Some(note) = super::model::ends_before_the_bridge(&crossing) {
         write(format!("  note: {note}"));
     }
     write("largest stable step:".to_owned());

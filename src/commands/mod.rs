@@ -5,6 +5,7 @@ mod completions;
 mod density;
 mod excite;
 mod inspect;
+mod model;
 mod plot;
 mod progress;
 mod reliability;

@@ -1,8 +1,9 @@
 //! `dpim simulate`: one deterministic run a point, in lockstep, band by band.
 
 use super::Context;
+use super::model::Model;
 use crate::cli;
-use crate::ensemble::{Batch, Divergence, LANES, Strip, WheelPath};
+use crate::ensemble::{Divergence, LANES, Points, Stepper, Strip, System};
 use crate::files::points::{PointsReader, ReadBatch};
 use crate::files::recording::{
     self, Axis, Band, QuantityHeader, RecordingHeader, RecordingWriter, band_layout,
@@ -10,14 +11,11 @@ use crate::files::recording::{
 use crate::files::{Kind, OutputFile, Provenance};
 use crate::quantity::Quantity;
 use crate::scenario::{Compression, Precision, Scenario, SimulationSpec};
-use crate::system::{Crossing, CrossingTables};
 use crate::{BadInput, Error, Result, interrupt, memory};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
-/// The irregularity that a quarter car runs on.
-const COMPONENT: &str = "vertical";
 /// Points that a thread steps before it writes their rows.
 const GROUP: usize = 6 * LANES;
 
@@ -28,39 +26,27 @@ pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
     )?;
     let scenario = args.scenario.load()?;
     let simulation = scenario.simulation()?;
-    let (crossing, quantities) = scenario.crossing()?;
-    if let Some(note) = ends_before_the_bridge(&crossing) {
+    let (model, quantities) = Model::read(&scenario)?;
+    if let Some(note) = model.note() {
         context.note(note);
     }
     let reader = PointsReader::open(&args.points)?;
     let range = checked_range(args, reader.header().count)?;
-    let component = component(args, &reader)?;
-    let path = wheel_path(args, &crossing, &reader)?;
+    let component = model.component(&args.points, &reader)?;
+    let system = model.system(&scenario, &quantities, &args.points, &reader)?;
     let header = header(&scenario, &simulation, &quantities, &reader, &range, args);
     let output = OutputFile::create(&args.output.output, !args.output.no_clobber)?;
     let writer = RecordingWriter::create(output, &header)?;
     let run = Run {
         context,
-        tables: crossing.tables(&quantities),
-        times: crossing.times(),
-        path,
+        times: system.times(),
+        system,
         reader,
         component,
         range,
         bytes: header.precision.bytes(),
     };
     run.execute(writer)
-}
-
-/// What is said where the vehicle never gets to the bridge.
-pub(super) fn ends_before_the_bridge(crossing: &Crossing) -> Option<String> {
-    let end = crossing.positions().last().copied().unwrap_or(0.0);
-    (end <= 0.0).then(|| {
-        format!(
-            "the run ends {:.3} m before the bridge: simulation.duration is too short for vehicle.approach",
-            -end
-        )
-    })
 }
 
 fn checked_range(args: &cli::Simulate, count: u32) -> Result<Range<u32>> {
@@ -74,52 +60,6 @@ fn checked_range(args: &cli::Simulate, count: u32) -> Result<Range<u32>> {
         return Err(BadInput::new("--points", "", expected, found).into());
     }
     Ok(range)
-}
-
-fn component(args: &cli::Simulate, reader: &PointsReader) -> Result<usize> {
-    let components = &reader.header().components;
-    components
-        .iter()
-        .position(|name| name == COMPONENT)
-        .ok_or_else(|| {
-            let found = components.join(", ");
-            super::bad_file(
-                &args.points,
-                COMPONENT,
-                "the irregularity's column, a list of heights (m)",
-                format!("only {found}"),
-            )
-            .into()
-        })
-}
-
-fn wheel_path(
-    args: &cli::Simulate,
-    crossing: &Crossing,
-    reader: &PointsReader,
-) -> Result<WheelPath> {
-    let header = reader.header();
-    let positions = crossing.positions();
-    let (start, step, count) = (
-        header.position_start,
-        header.position_step,
-        header.positions,
-    );
-    WheelPath::new(&positions, start, step, count).ok_or_else(|| {
-        let last = positions.last().copied().unwrap_or(0.0);
-        let end = start + (count as f64 - 1.0) * step;
-        super::bad_file(
-            &args.points,
-            COMPONENT,
-            format!(
-                "positions (four at least) that cover the wheel's path from {} to {last} m",
-                positions[0]
-            ),
-            format!("{count} from {start} to {end} m"),
-        )
-        .remedy("set irregularity.start and irregularity.length, or shorten simulation.duration")
-        .into()
-    })
 }
 
 fn header(
@@ -174,11 +114,11 @@ fn header(
 /// Everything but the output.
 struct Run<'a> {
     context: &'a Context,
-    tables: CrossingTables,
+    system: Box<dyn System>,
     times: Vec<f64>,
-    path: WheelPath,
     reader: PointsReader,
-    component: usize,
+    /// The column of irregularity or excitation, where the system needs one.
+    component: Option<usize>,
     range: Range<u32>,
     bytes: usize,
 }
@@ -192,13 +132,12 @@ struct Filled {
 impl Run<'_> {
     /// Rows of a point: times and quantities.
     fn rows(&self) -> usize {
-        self.times.len() * self.tables.maps.outputs.len()
+        self.times.len() * self.system.outputs()
     }
 
     /// Reads on one thread, steps on all, writes on another.
     fn execute(&self, writer: RecordingWriter) -> Result<()> {
-        let (band, block) =
-            band_layout(self.times.len(), self.tables.maps.outputs.len(), self.bytes);
+        let (band, block) = band_layout(self.times.len(), self.system.outputs(), self.bytes);
         let bar = self.context.progress("simulate", self.range.len() as u64);
         std::thread::scope(|scope| {
             let (read, batches) = sync_channel::<Result<ReadBatch>>(1);
@@ -294,18 +233,31 @@ impl Run<'_> {
 
     /// One block: `[time][quantity][point]` of its points.
     fn step(&self, batch: &ReadBatch, values: &mut [f64]) -> Result<()> {
-        let positions = self.reader.header().positions;
-        let rows = batch.irregularity[self.component].par_chunks(GROUP * positions);
+        let (excitation, samples): (&[f64], usize) = match self.component {
+            Some(component) => (
+                &batch.irregularity[component],
+                self.reader.header().positions,
+            ),
+            None => (&[], 0),
+        };
+        let points = Points {
+            excitation,
+            samples,
+            parameters: &batch.parameters,
+            range: 0..batch.count,
+        };
         let outcomes: Vec<Result<(), (usize, Divergence)>> = Strip::cut(values, batch.count, GROUP)
             .into_par_iter()
-            .zip(rows)
+            .enumerate()
             .map_init(
-                || (Batch::new(&self.tables), Vec::new()),
-                |(lanes, scratch), (mut strip, rows)| {
+                || (self.system.stepper(), Vec::new()),
+                |(stepper, scratch), (number, mut strip)| {
                     if interrupt::check().is_err() {
                         return Ok(());
                     }
-                    self.step_group(lanes, scratch, rows, &mut strip)
+                    let first = number * GROUP;
+                    let group = points.part(first..first + strip.width());
+                    self.step_group(stepper.as_mut(), scratch, &group, &mut strip)
                 },
             )
             .collect();
@@ -313,7 +265,8 @@ impl Run<'_> {
         for (number, outcome) in outcomes.into_iter().enumerate() {
             outcome.map_err(|(lane, divergence)| {
                 let point = batch.first_point as usize + number * GROUP + lane;
-                self.diverged(point, divergence)
+                let explained = self.system.explain(divergence);
+                Error::Numerical(format!("point {point}: {explained}"))
             })?;
         }
         Ok(())
@@ -323,37 +276,24 @@ impl Run<'_> {
     /// block's rows lie a power of two apart, and narrow columns of them would throw each other out.
     fn step_group(
         &self,
-        lanes: &mut Batch<'_>,
+        stepper: &mut dyn Stepper,
         scratch: &mut Vec<f64>,
-        rows: &[f64],
+        points: &Points<'_>,
         strip: &mut Strip<'_>,
     ) -> Result<(), (usize, Divergence)> {
-        let positions = self.reader.header().positions;
         let width = strip.width();
         scratch.resize(self.rows() * width, 0.0);
         let batches = Strip::cut(scratch, width, LANES).into_iter();
-        for (number, (mut part, rows)) in batches.zip(rows.chunks(LANES * positions)).enumerate() {
-            let fill = |steps, out: &mut [f64]| self.path.fill(rows, positions, steps, out);
-            lanes
-                .run(fill, &mut part)
-                .map_err(|divergence| (number * LANES + divergence.lane, divergence))?;
+        for (number, mut part) in batches.enumerate() {
+            let first = number * LANES;
+            let lanes = points.part(first..first + part.width());
+            stepper
+                .run(&lanes, &mut part)
+                .map_err(|divergence| (first + divergence.lane, divergence))?;
         }
         for (row, values) in scratch.chunks_exact(width).enumerate() {
             strip.row(row).copy_from_slice(values);
         }
         Ok(())
-    }
-
-    fn diverged(&self, point: usize, divergence: Divergence) -> Error {
-        let crossing = self.tables.crossing();
-        let reason = if crossing.car.is_nonlinear() {
-            "the time step is likely too long for the nonlinear suspension: make simulation.time_step smaller"
-        } else {
-            "the irregularity is likely far too large: look at the points file"
-        };
-        Error::Numerical(format!(
-            "point {point}: the response grows without bound, beyond 1000 km at t = {:.6} s; {reason}",
-            divergence.step as f64 * crossing.time_step
-        ))
     }
 }

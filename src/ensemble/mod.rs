@@ -6,6 +6,7 @@
 //! on the vectors' width, or on the threads.
 
 mod batch;
+mod crossing;
 mod kernel;
 mod lanes;
 mod maps;
@@ -14,12 +15,15 @@ mod sample;
 mod state;
 mod strip;
 mod suspension;
+mod system;
 mod vehicle;
 
 pub use batch::{Batch, Divergence};
+pub use crossing::{CrossingOf, Crossings};
 pub use lanes::LANES;
 pub use path::WheelPath;
 pub use strip::Strip;
+pub use system::{Points, Stepper, System};
 
 #[cfg(test)]
 mod tests;

@@ -31,6 +31,7 @@ mod simulation;
 mod suggestion;
 #[cfg(test)]
 mod tests;
+mod varied;
 mod vehicle;
 
 use std::io::ErrorKind;
@@ -52,6 +53,7 @@ pub use reliability::{LimitKind, LimitSpec, ReliabilitySpec};
 pub use schema::{ScenarioSpec, json_schema};
 pub use simulation::{Compression, InitialState, IntegratorKind, Precision, SimulationSpec};
 pub use suggestion::nearest;
+pub use varied::VARIED_KEYS;
 pub use vehicle::{BumpStopSpec, QuarterCarSpec, VehicleSpec};
 
 /// A scenario: its text after the overrides, and where each key came from.

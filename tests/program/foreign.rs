@@ -21,6 +21,8 @@ pub struct Points {
     /// `[point][position]`, m.
     pub heights: Vec<f64>,
     pub positions: usize,
+    /// Columns of random parameters.
+    pub parameters: Vec<(&'static str, Vec<f64>)>,
     /// `df.attrs`, as JSON.
     pub attributes: String,
 }
@@ -34,6 +36,7 @@ impl Points {
             column: Some("vertical"),
             heights: vec![0.0; count * positions],
             positions,
+            parameters: Vec::new(),
             attributes: r#"{"position_start": 0.0, "position_step": 0.5, "author": "somebody"}"#
                 .to_owned(),
         }
@@ -53,6 +56,9 @@ impl Points {
             "roughness_class",
             Arc::new(Float64Array::from(vec![2.0; rows])),
         ));
+        for (key, values) in &self.parameters {
+            columns.push((key, Arc::new(Float64Array::from(values.clone()))));
+        }
         if let Some(name) = self.column {
             let values = Arc::new(Float64Array::from(self.heights.clone()));
             let offsets = OffsetBuffer::from_repeated_length(self.positions, rows);
@@ -198,6 +204,44 @@ fn points_of_pandas_go_through_all_stages() {
         "points.parquet: expected points of a scenario with a spectrum, the periodogram's target, \
          found points without a scenario",
     );
+}
+
+#[test]
+fn columns_of_parameters_replace_those_of_the_scenario() {
+    let folder = Folder::new();
+    let mut points = Points::new(30);
+    points.write(&folder.path("plain.parquet"));
+    // The damping follows the stiffness, since the scenario gives its ratio.
+    points.parameters = vec![
+        ("vehicle.suspension_stiffness", vec![350e3; 30]),
+        ("bridge.flexural_rigidity", vec![2.2e9; 30]),
+    ];
+    points.write(&folder.path("random.parquet"));
+    let means = |points: &str, options: &str| {
+        let simulate = format!("simulate -s scenario.toml {points} {options} -o responses.mcap");
+        folder.done(&simulate);
+        folder.done("density responses.mcap -o density.parquet --moments moments.parquet");
+        let moments = read_moments(&folder.path("moments.parquet")).unwrap();
+        moments.rows.iter().map(|row| row.mean).collect::<Vec<_>>()
+    };
+    let random = means("random.parquet", "");
+    let plain = means(
+        "plain.parquet",
+        "--set vehicle.suspension_stiffness=350e3 --set bridge.flexural_rigidity=2.2e9",
+    );
+    let nominal = means("plain.parquet", "");
+    let size = |values: &[f64]| values.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    let distance = |a: &[f64], b: &[f64]| {
+        let apart: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
+        size(&apart)
+    };
+    assert!(distance(&random, &plain) < 1e-12 * size(&plain));
+    assert!(distance(&random, &nominal) > 1e-3 * size(&plain));
+    // What the lanes share can't be a column.
+    points.parameters = vec![("vehicle.speed", vec![20.0; 30])];
+    points.write(&folder.path("speed.parquet"));
+    let outcome = folder.run_in_vain("simulate -s scenario.toml speed.parquet -o out.mcap", 2);
+    outcome.says(&["vehicle.speed: expected a parameter that may differ between points"]);
 }
 
 #[test]
