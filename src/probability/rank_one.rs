@@ -4,75 +4,98 @@
 //! u_qj = frac( q z_j / N + Δ_j ),   q = 0 ... N − 1
 //! ```
 //!
-//! Each z_j is prime to N, so that each variable has one point in each of N strata, all at the same
-//! place in their strata. Each point alone is uniform, so that weighted means are unbiased.
+//! for the leading variables, at most 64. Each z_j is prime to N, so that each variable has one point in each of N
+//! strata, all at the same place in their strata. Each point alone is uniform, so that weighted means
+//! are unbiased.
 //!
 //! The generating vector is built for N itself, component by component: z_j makes
 //!
 //! ```text
-//! e² = −1 + (1/N) Σ_q Π_j (1 + γ_j ω(frac(q z_j / N))),   ω(x) = 2π² (x² − x + 1/6),   γ_j = 1/j²
+//! e² = −1 + (1/N) Σ_q Π_j (1 + γ ω(frac(q z_j / N))),   ω(x) = 2π² (x² − x + 1/6),   γ = 0.1
 //! ```
 //!
-//! smallest, given those before it: the mean square worst-case error of shifted lattices in weighted
-//! Sobolev spaces, whose weights γ_j say that leading variables matter most. Sources: I. H. Sloan,
-//! F. Y. Kuo, S. Joe, SIAM J. Numer. Anal. 40 (2002) 1650-1665; D. Nuyens, R. Cools, Math. Comput. 75
-//! (2006) 903-920. All candidates are tried where N is small, a random part of them beyond; from the
-//! 65th variable on, whose weights are below 3e-4, z_j is a random number prime to N.
+//! smallest, given those before it: the mean square worst-case error of shifted lattices in a weighted
+//! Sobolev space, for any N. With this small weight pairs of variables count most, and those taken
+//! first, the most important, fare best. Sources: I. H. Sloan, F. Y. Kuo, S. Joe, SIAM J. Numer. Anal.
+//! 40 (2002) 1650-1665; D. Nuyens, R. Cools, Math. Comput. 75 (2006) 903-920. All candidates are
+//! tried where N is small, a random part of them beyond.
+//!
+//! Further variables take their strata in random order, as in a Latin hypercube. In many variables a
+//! lattice runs out of numbers that are prime to N and unlike the others, and variables with the same one
+//! depend on each other. So the lattice has at most half as many variables as there are such numbers
+//! below N/2: 8 for N = 64, 40 for N = 374, 64 from N = 512 on where N is a power of two.
 
-use super::{PointRule, Purpose, RuleError, in_stratum, open_unit, quantile, stream};
+use super::{Permutation, PointRule, Purpose, RuleError, in_stratum, open_unit, quantile, stream};
 use rand::{Rng, RngExt};
+use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// Components that are searched for.
+/// Variables on the lattice, at most.
 const SEARCHED: usize = 64;
 
 /// Candidates tried for each of them, at least.
 const CANDIDATES: usize = 64;
 
 /// More are tried as long as candidates times points stay below this.
-const EFFORT: usize = 1 << 17;
+const EFFORT: usize = 1 << 19;
+
+/// γ.
+const WEIGHT: f64 = 0.1;
 
 /// A randomly shifted rank-1 lattice.
 #[derive(Debug, Clone)]
 pub struct RankOneLattice {
     count: usize,
-    components: Vec<Component>,
+    variables: Vec<Variable>,
 }
 
 /// What one variable needs.
-#[derive(Debug, Clone, Copy)]
-struct Component {
-    /// z_j.
-    generator: usize,
-    /// N Δ_j, whole part and fraction.
-    shift: usize,
-    fraction: f64,
+#[derive(Debug, Clone)]
+struct Variable {
+    strata: Strata,
+    /// The place of all points in their strata.
+    place: f64,
+}
+
+/// The stratum of each point.
+#[derive(Debug, Clone)]
+enum Strata {
+    /// (q z_j + shift) modulo N.
+    Lattice {
+        generator: usize,
+        shift: usize,
+    },
+    Random(Permutation),
 }
 
 impl RankOneLattice {
     /// Most points.
     pub const MOST_POINTS: usize = 1 << 20;
 
-    /// The lattice of `count` points; its generating vector depends on nothing else, its shift on `seed`.
+    /// The lattice of `count` points; its generating vector depends on nothing else, its shift and the random orders
+    /// on `seed`.
     ///
     /// # Errors
     /// More than 2²⁰ points, for which the search would take too long.
     pub fn new(count: usize, dimensions: usize, seed: u64) -> Result<Self, RuleError> {
         RuleError::check_count("at most 1048576", Self::MOST_POINTS, count)?;
-        let components = generating_vector(count, dimensions)
-            .into_iter()
-            .enumerate()
-            .map(|(dimension, generator)| {
+        let vector = generating_vector(count, dimensions.min(most_components(count)));
+        let variables = (0..dimensions)
+            .map(|dimension| {
                 let mut random = stream(seed, Purpose::Shift, dimension);
-                Component {
-                    generator,
-                    shift: random.random_range(0..count as u64) as usize,
-                    fraction: open_unit(random.next_u64()),
-                }
+                let place = open_unit(random.next_u64());
+                let strata = match vector.get(dimension) {
+                    Some(generator) => Strata::Lattice {
+                        generator: *generator,
+                        shift: random.random_range(0..count as u64) as usize,
+                    },
+                    None => Strata::Random(Permutation::random(count, &mut random)),
+                };
+                Variable { strata, place }
             })
             .collect();
-        Ok(RankOneLattice { count, components })
+        Ok(RankOneLattice { count, variables })
     }
 }
 
@@ -82,38 +105,45 @@ impl PointRule for RankOneLattice {
     }
 
     fn dimensions(&self) -> usize {
-        self.components.len()
+        self.variables.len()
     }
 
     fn standard_normals(&self, points: Range<usize>, out: &mut [f64]) {
+        let mut strata = vec![0; points.len()];
         let rows = out.chunks_exact_mut(points.len());
-        for (component, row) in self.components.iter().zip(rows) {
-            let mut stratum = (points.start * component.generator + component.shift) % self.count;
-            for x in row {
-                let unit = in_stratum(stratum as u32, component.fraction, self.count);
-                *x = quantile(unit);
-                stratum += component.generator;
-                if stratum >= self.count {
-                    stratum -= self.count;
+        for (variable, row) in self.variables.iter().zip(rows) {
+            match &variable.strata {
+                Strata::Lattice { generator, shift } => {
+                    let first = (points.start * generator + shift) % self.count;
+                    let multiples = multiples(first, *generator, self.count);
+                    for (stratum, multiple) in strata.iter_mut().zip(multiples) {
+                        *stratum = multiple as u32;
+                    }
                 }
+                Strata::Random(order) => order.images(points.clone(), &mut strata),
+            }
+            for (x, stratum) in row.iter_mut().zip(&strata) {
+                *x = quantile(in_stratum(*stratum, variable.place, self.count));
             }
         }
     }
 }
 
 /// z₁ ... z_s for N points.
-pub(super) fn generating_vector(count: usize, dimensions: usize) -> Vec<usize> {
+fn generating_vector(count: usize, dimensions: usize) -> Vec<usize> {
     let mut search = Search::new(count);
     (0..dimensions)
         .map(|dimension| match dimension {
-            0 => search.take(0, vec![1]),
-            1..SEARCHED => search.take(dimension, candidates(count, dimension)),
-            _ => random_unit(
-                count,
-                &mut stream(count as u64, Purpose::Generator, dimension),
-            ),
+            0 => search.take(vec![1]),
+            _ => search.take(candidates(count, dimension)),
         })
         .collect()
+}
+
+/// Half as many as there are numbers prime to N up to N/2, at least one.
+fn most_components(count: usize) -> usize {
+    let units = (1..=count / 2).filter(|z| is_prime_to(*z, count));
+    (units.take(2 * SEARCHED).count() / 2).max(1)
 }
 
 /// Numbers prime to N up to N/2 (z and N − z give mirror images): all, or a random choice.
@@ -148,7 +178,7 @@ struct Search {
     count: usize,
     /// ω(r / N).
     kernel: Vec<f64>,
-    /// Π (1 + γ_j ω(frac(q z_j / N))), twice where there are two such points.
+    /// Π (1 + γ ω(frac(q z_j / N))), twice where there are two such points.
     products: Vec<f64>,
 }
 
@@ -166,28 +196,28 @@ impl Search {
         }
     }
 
-    /// The first of the candidates with the least error; it becomes the next component.
-    fn take(&mut self, dimension: usize, candidates: Vec<usize>) -> usize {
-        let mut best = (f64::INFINITY, 1);
-        for z in candidates {
-            let terms = self.products.iter().zip(multiples(z, self.count));
-            let sum: f64 = terms.map(|(product, r)| product * self.kernel[r]).sum();
-            if sum < best.0 {
-                best = (sum, z);
-            }
-        }
-        let weight = 1.0 / ((dimension + 1) * (dimension + 1)) as f64;
-        let terms = self.products.iter_mut().zip(multiples(best.1, self.count));
+    /// The candidate with the least error, of equals the smallest; it becomes the next component.
+    fn take(&mut self, candidates: Vec<usize>) -> usize {
+        let error = |z: usize| -> f64 {
+            let terms = self.products.iter().zip(multiples(0, z, self.count));
+            terms.map(|(product, r)| product * self.kernel[r]).sum()
+        };
+        let best = candidates
+            .into_par_iter()
+            .map(|z| (error(z), z))
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+            .map_or(1, |(_, z)| z);
+        let terms = self.products.iter_mut().zip(multiples(0, best, self.count));
         for (product, r) in terms {
-            *product *= 1.0 + weight * self.kernel[r];
+            *product *= 1.0 + WEIGHT * self.kernel[r];
         }
-        best.1
+        best
     }
 }
 
-/// q z modulo N for q = 0, 1, ..., where 0 < z <= N.
-fn multiples(z: usize, count: usize) -> impl Iterator<Item = usize> {
-    std::iter::successors(Some(0), move |r| {
+/// (first + q z) modulo N for q = 0, 1, ..., where first < N and 0 < z <= N.
+fn multiples(first: usize, z: usize, count: usize) -> impl Iterator<Item = usize> {
+    std::iter::successors(Some(first), move |r| {
         let next = r + z;
         Some(if next >= count { next - count } else { next })
     })
@@ -229,15 +259,14 @@ mod tests {
         }
     }
 
-    /// e² of a generating vector with the weights 1/j².
+    /// e² of a generating vector.
     fn squared_error(n: usize, z: &[usize]) -> f64 {
         let mean: f64 = (0..n)
             .map(|q| {
                 z.iter()
-                    .enumerate()
-                    .map(|(j, z)| {
+                    .map(|z| {
                         let x = (q * z % n) as f64 / n as f64;
-                        1.0 + 2.0 * PI * PI * (x * x - x + 1.0 / 6.0) / ((j + 1) * (j + 1)) as f64
+                        1.0 + WEIGHT * 2.0 * PI * PI * (x * x - x + 1.0 / 6.0)
                     })
                     .product::<f64>()
             })
@@ -258,10 +287,10 @@ mod tests {
         }
     }
 
-    /// Few candidates are nearly as good as all: e² in 16 variables within 1.5 of the best component by component,
-    /// and less than that of the median random vector, which is about 2.5 times the best (N = 1021).
+    /// Of 4093 points a small part of the candidates is tried. In 16 variables e² is well below that of the median
+    /// random vector, which is where it would be without a search.
     #[test]
-    fn a_search_among_few_is_nearly_as_good() {
+    fn a_search_among_few_candidates_finds_good_ones() {
         let n = 4093;
         let searched = squared_error(n, &generating_vector(n, 16));
         let mut random = stream(1, Purpose::Generator, 0);
@@ -272,7 +301,7 @@ mod tests {
             })
             .collect();
         others.sort_unstable_by(f64::total_cmp);
-        assert!(searched < 0.6 * others[25], "{searched} {}", others[25]);
+        assert!(searched < 0.8 * others[25], "{searched} {}", others[25]);
     }
 
     #[test]
@@ -280,6 +309,9 @@ mod tests {
         for n in [1, 2, 3, 4, 6, 374, 984, 1 << 12, 30_030] {
             let z = generating_vector(n, 80);
             assert!(z.iter().all(|z| is_prime_to(*z, n)), "{n}");
+        }
+        for (n, most) in [(1, 1), (2, 1), (64, 8), (374, 40), (512, 64), (984, 64)] {
+            assert_eq!(most_components(n), most, "{n}");
         }
     }
 }

@@ -47,7 +47,8 @@ pub enum RuleKind {
     LatinHypercube,
     /// Sobol points, scrambled at random, in at most 4096 variables.
     Sobol,
-    /// A rank-1 lattice, built for the number of points and shifted at random.
+    /// A rank-1 lattice in at most 64 leading variables, built for the number of points and shifted at random; each
+    /// further variable stratified, strata paired at random.
     Lattice,
     /// A lattice in each two-dimensional subspace, subspaces paired at random.
     PartiallyStratified,

@@ -47,7 +47,12 @@ fn assert_same(one: &BTreeMap<PathBuf, Vec<u8>>, other: &BTreeMap<PathBuf, Vec<u
 #[test]
 fn outputs_do_not_depend_on_the_threads() {
     // 9001 points: three row groups of points and three blocks of responses, none of them of a round number.
-    for rule in ["partially-stratified", "latin-hypercube", "monte-carlo"] {
+    for rule in [
+        "partially-stratified",
+        "latin-hypercube",
+        "monte-carlo",
+        "sobol --set points.moment_matching=20",
+    ] {
         let options = format!(
             "--set points.rule={rule} --set points.count=9001 --set simulation.record_every=40 --set irregularity.spacing=1"
         );

@@ -14,7 +14,8 @@
 //! In more than [`GfDiscrepancy::MOST_DIMENSIONS_OF_CELLS`] variables all probabilities are 1/N, and the
 //! second rearrangement is the first. Step 3 samples a box of about 8 standard deviations a side, in
 //! which only (√(4π)/8)^s of the samples count: of 100,000 they are 756 in six variables, fewer
-//! than one a cell of 1,000 points, and half of that in each further variable.
+//! than one a cell of 1,000 points, and half of that in each further variable. Measured: of 1,000 points
+//! in six variables 873 are left, with an effective number of 459; of exact cells it would be 904.
 
 mod ranks;
 #[cfg(test)]

@@ -221,3 +221,6 @@ fn product(
         );
     }
 }
+
+#[cfg(test)]
+mod tests;
