@@ -7,6 +7,7 @@ mod excite;
 mod inspect;
 mod plot;
 mod progress;
+mod random;
 mod reliability;
 mod responses;
 mod schema;

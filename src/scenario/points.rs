@@ -21,6 +21,9 @@ pub struct PointsSpec {
     /// Gaussian amplitudes only.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub truncate_at: Option<f64>,
+    /// Number of leading standard normals that are kept for each point, those of the random parameters first; by
+    /// default these and 50 of the irregularity. At most all that there are.
+    pub variables: Option<u32>,
     /// Seed of the random numbers. The same seed gives the same bytes.
     #[serde(default = "default_seed")]
     pub seed: u64,
