@@ -1,12 +1,14 @@
 //! `dpim check`: what a scenario costs and whether its step is stable, before the work.
 
+use super::random::{Leading, warnings};
 use crate::Result;
 use crate::cli;
 use crate::ensemble::LANES;
 use crate::files::recording::band_layout;
 use crate::integrate::Integrator;
 use crate::irregularity::SpectralRepresentation;
-use crate::scenario::{IrregularitySpec, Precision, Scenario};
+use crate::probability::distribution::Tail;
+use crate::scenario::{IrregularitySpec, Precision, RandomParameters, Scenario};
 use crate::system::{Crossing, largest_stable_step};
 use std::fmt::Write;
 
@@ -26,8 +28,10 @@ pub(super) fn run(args: &cli::Check) -> Result<()> {
         args.scenario.scenario.display(),
         scenario.title().unwrap_or("without a title")
     ));
+    let random = super::random::read(&scenario)?;
+    describe(&random, &mut write);
     let points = if scenario.has("points") {
-        excitation(&scenario, &mut write)?
+        excitation(&scenario, random, &mut write)?
     } else {
         None
     };
@@ -43,7 +47,11 @@ pub(super) fn run(args: &cli::Check) -> Result<()> {
 }
 
 /// Points and irregularity; returns the number of points.
-fn excitation(scenario: &Scenario, write: &mut impl FnMut(String)) -> Result<Option<usize>> {
+fn excitation(
+    scenario: &Scenario,
+    random: RandomParameters,
+    write: &mut impl FnMut(String),
+) -> Result<Option<usize>> {
     let spec = scenario.points()?;
     if !scenario.has("irregularity") {
         return Ok(None);
@@ -51,8 +59,11 @@ fn excitation(scenario: &Scenario, write: &mut impl FnMut(String)) -> Result<Opt
     let irregularity = scenario.irregularity()?;
     scenario.check_truncation(&spec, &irregularity)?;
     let grid = scenario.irregularity_grid(&irregularity)?;
-    let dimensions = variables(&irregularity);
-    let count = scenario.point_count(&spec, dimensions, 0)?;
+    let field = variables(&irregularity);
+    let dimensions = random.dimensions() + field;
+    let leading = Leading::new(random, &spec, field);
+    let numbers = grid.count + leading.random.dimensions() + leading.variables;
+    let count = scenario.point_count(&spec, dimensions, leading.random.dimensions())?;
     write(format!(
         "points: {count} by {} in {dimensions} standard normal variables",
         spec.rule.name()
@@ -89,9 +100,35 @@ fn excitation(scenario: &Scenario, write: &mut impl FnMut(String)) -> Result<Opt
     }
     write(format!(
         "  points file: about {}",
-        size(count * (8 * grid.count + 8))
+        size(count * (8 * numbers + 8))
     ));
     Ok(Some(count))
+}
+
+/// The random parameters, with the values that one point in a thousand is below or above.
+fn describe(random: &RandomParameters, write: &mut impl FnMut(String)) {
+    if random.dimensions() > 0 {
+        write("random parameters:".to_owned());
+    }
+    for parameter in random.iter() {
+        let law = &parameter.distribution;
+        write(format!(
+            "  {} [{}]: {}, mean {:.6e}, standard deviation {:.6e}",
+            parameter.key,
+            parameter.unit,
+            law.kind(),
+            law.mean(),
+            law.deviation()
+        ));
+        write(format!(
+            "    0.1 % below {:.6e}, 0.1 % above {:.6e}",
+            law.value(Tail::Below(0.001)),
+            law.value(Tail::Above(0.001))
+        ));
+    }
+    for warning in warnings(random) {
+        write(format!("  note: {warning}"));
+    }
 }
 
 fn variables(spec: &IrregularitySpec) -> usize {

@@ -1,6 +1,7 @@
 //! `dpim excite`: representative points and their irregularities.
 
 use super::Context;
+use super::random::{Drawn, Leading};
 use crate::cli;
 use crate::files::points::{PointsBatch, PointsHeader, PointsWriter, ROW_GROUP};
 use crate::files::{Kind, OutputFile, Provenance, Weights, tabulated};
@@ -31,19 +32,22 @@ pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
     let spec = scenario.irregularity()?;
     scenario.check_truncation(&points, &spec)?;
     let source = Source::new(context, &scenario, &spec)?;
-    let dimensions = source
+    let field = source
         .field
         .as_ref()
         .map_or(0, SpectralRepresentation::dimensions);
-    let rule = scenario.point_rule(&points, dimensions, 0)?;
+    let leading = Leading::read(context, &scenario, &points, field)?;
+    let parameters = leading.random.dimensions();
+    let dimensions = parameters + field;
+    let rule = scenario.point_rule(&points, dimensions, parameters)?;
     let header = PointsHeader {
         weights: Weights::Assigned,
         position_start: source.grid.start,
         position_step: source.grid.spacing,
         positions: source.grid.count,
         components: vec!["vertical".to_owned()],
-        parameters: Vec::new(),
-        variables: 0,
+        parameters: leading.columns(),
+        variables: leading.variables,
         provenance: Provenance::stamp(
             Kind::Points,
             Some(scenario.text()),
@@ -64,7 +68,7 @@ pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
     report(context, rule.as_ref());
     let output = OutputFile::create(&args.output.output, !args.output.no_clobber)?;
     let writer = PointsWriter::create(output, &header)?;
-    write(context, rule.as_ref(), &source, writer)
+    write(context, rule.as_ref(), &leading, &source, writer)
 }
 
 /// What is to know about the points: their figures of merit where details are asked for.
@@ -102,17 +106,19 @@ fn load(args: &cli::Excite) -> Result<Scenario> {
 fn write(
     context: &Context,
     rule: &dyn PointRule,
+    leading: &Leading,
     source: &Source,
     mut writer: PointsWriter,
 ) -> Result<()> {
     struct Group {
         points: Range<usize>,
         rows: Vec<f64>,
+        drawn: Drawn,
     }
     let bar = context.progress("excite", rule.count() as u64);
     std::thread::scope(|scope| {
         let (full, groups) = sync_channel::<Group>(1);
-        let (emptied, spare) = sync_channel::<Vec<f64>>(2);
+        let (emptied, spare) = sync_channel::<(Vec<f64>, Drawn)>(2);
         let written = scope.spawn(move || -> Result<PointsWriter> {
             for group in groups {
                 let probability: Vec<f64> =
@@ -120,12 +126,12 @@ fn write(
                 writer.write(&PointsBatch {
                     first_point: group.points.start as u32,
                     probability: &probability,
-                    parameters: &[],
+                    parameters: &group.drawn.parameters,
                     irregularity: &[&group.rows],
-                    variables: &[],
+                    variables: &group.drawn.variables,
                 })?;
                 // Memory that finds no room on its way back is let go.
-                let _ = emptied.try_send(group.rows);
+                let _ = emptied.try_send((group.rows, group.drawn));
             }
             Ok(writer)
         });
@@ -136,11 +142,20 @@ fn write(
                 break;
             }
             let points = first..(first + ROW_GROUP).min(rule.count());
-            let mut rows = spare.try_recv().unwrap_or_default();
+            let (mut rows, mut drawn) = spare.try_recv().unwrap_or_default();
             rows.resize(points.len() * source.grid.count, 0.0);
-            source.fill(rule, points.start, &mut rows);
+            source.fill(rule, leading, points.start, &mut rows, &mut drawn);
+            filled = leading.check(points.start, &drawn);
+            if filled.is_err() {
+                break;
+            }
             bar.inc(points.len() as u64);
-            if full.send(Group { points, rows }).is_err() {
+            let group = Group {
+                points,
+                rows,
+                drawn,
+            };
+            if full.send(group).is_err() {
                 break;
             }
         }
@@ -205,24 +220,37 @@ impl Source {
         }
     }
 
-    /// Fills `[point][position]` from the point `first` on.
-    fn fill(&self, rule: &dyn PointRule, first: usize, rows: &mut [f64]) {
+    /// Fills `[point][position]` from the point `first` on, and what is drawn beside.
+    fn fill(
+        &self,
+        rule: &dyn PointRule,
+        leading: &Leading,
+        first: usize,
+        rows: &mut [f64],
+        drawn: &mut Drawn,
+    ) {
         let positions = self.grid.count;
+        let pieces = drawn.pieces(leading, rows.len() / positions, PART);
         rows.par_chunks_mut(PART * positions)
+            .zip(pieces)
             .enumerate()
             .for_each_init(
                 || (Vec::new(), Vec::new()),
-                |(variables, coefficients), (part, rows)| {
+                |(variables, coefficients), (part, (rows, piece))| {
                     for row in rows.chunks_exact_mut(positions) {
                         row.copy_from_slice(&self.mean);
                     }
+                    if rule.dimensions() == 0 {
+                        return;
+                    }
+                    let count = rows.len() / positions;
+                    let start = first + part * PART;
+                    variables.resize(rule.dimensions() * count, 0.0);
+                    rule.standard_normals(start..start + count, variables);
+                    let variables = piece.take(variables);
                     let (Some(field), Some(synthesis)) = (&self.field, &self.synthesis) else {
                         return;
                     };
-                    let count = rows.len() / positions;
-                    let start = first + part * PART;
-                    variables.resize(field.dimensions() * count, 0.0);
-                    rule.standard_normals(start..start + count, variables);
                     if field.is_gaussian() {
                         synthesis.add(variables, count, rows);
                     } else {

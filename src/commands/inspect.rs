@@ -105,6 +105,9 @@ fn points(path: &Path, text: &mut String) -> Result<()> {
         header.position_step,
         header.position_start + (header.positions as f64 - 1.0) * header.position_step
     );
+    if header.variables > 0 {
+        line!(text, "{} leading variables a point", header.variables);
+    }
     let mut spans = vec![Span::NONE; header.components.len()];
     let mut parameters = vec![Span::NONE; header.parameters.len()];
     let mut batch = Default::default();

@@ -8,6 +8,7 @@ mod inspect;
 mod model;
 mod plot;
 mod progress;
+mod random;
 mod reliability;
 mod responses;
 mod schema;

@@ -1,4 +1,4 @@
-//! Two columns of numbers from a file of the user: a spectrum, a measured profile.
+//! Columns of numbers from a file of the user: a spectrum, a measured profile, samples.
 //!
 //! Parquet, or text: fields separated by comma, semicolon, tab or blanks, an optional line of column
 //! names, `#` before comments, a decimal point.
@@ -13,55 +13,78 @@ use crate::{BadInput, Error, Result};
 /// # Errors
 /// Names line and column of what is wrong (the row in a Parquet file).
 pub fn read_columns(path: &Path, x: Option<&str>, y: Option<&str>) -> Result<(Vec<f64>, Vec<f64>)> {
-    let table = if is_parquet(path) {
-        parquet(path, x, y)?
-    } else {
-        text(path, x, y)?
-    };
-    table.check(path)?;
-    Ok((table.x, table.y))
+    let Columns::<2> { values: [x, y], .. } = read(path, [x, y])?.ascending(path)?;
+    Ok((x, y))
 }
 
-/// Two columns, and the place of each row.
-#[derive(Default)]
-struct Columns {
-    names: [String; 2],
-    x: Vec<f64>,
-    y: Vec<f64>,
+/// Reads one column, by default the first one: finite numbers in any order.
+///
+/// # Errors
+/// Names line and column of what is wrong (the row in a Parquet file).
+pub fn read_column(path: &Path, column: Option<&str>) -> Result<Vec<f64>> {
+    let Columns::<1> {
+        values: [values], ..
+    } = read(path, [column])?;
+    Ok(values)
+}
+
+/// Reads columns by their names, those without one by their place; everything must be finite.
+fn read<const N: usize>(path: &Path, wanted: [Option<&str>; N]) -> Result<Columns<N>> {
+    let table = if is_parquet(path) {
+        parquet(path, wanted)?
+    } else {
+        text(path, wanted)?
+    };
+    table.check(path)?;
+    Ok(table)
+}
+
+/// Columns, and the place of each row.
+struct Columns<const N: usize> {
+    names: [String; N],
+    values: [Vec<f64>; N],
     /// The line of each row; empty for Parquet, which has rows.
     lines: Vec<usize>,
 }
 
-impl Columns {
-    fn check(&self, path: &Path) -> Result<()> {
+impl<const N: usize> Columns<N> {
+    fn bad(&self, path: &Path, row: usize, column: usize, expected: String) -> Error {
         let file = path.display();
-        let bad = |row: usize, column: usize, expected: String, found: f64| {
-            let place = match self.lines.get(row) {
-                Some(line) => format!("{file}:{line}"),
-                None => format!("{file}: row {row}"),
-            };
-            Err(BadInput::new(place, &self.names[column], expected, found.to_string()).into())
+        let place = match self.lines.get(row) {
+            Some(line) => format!("{file}:{line}"),
+            None => format!("{file}: row {row}"),
         };
-        for (row, (&x, &y)) in self.x.iter().zip(&self.y).enumerate() {
-            for (column, value) in [x, y].into_iter().enumerate() {
-                if !value.is_finite() {
-                    return bad(row, column, "a finite number".into(), value);
+        let found = self.values[column][row].to_string();
+        BadInput::new(place, &self.names[column], expected, found).into()
+    }
+
+    /// At least two rows of finite numbers.
+    fn check(&self, path: &Path) -> Result<()> {
+        let rows = self.values.first().map_or(0, Vec::len);
+        for row in 0..rows {
+            for column in 0..N {
+                if !self.values[column][row].is_finite() {
+                    return Err(self.bad(path, row, column, "a finite number".into()));
                 }
             }
-            if row > 0 && x <= self.x[row - 1] {
-                return bad(
-                    row,
-                    0,
-                    format!("a value above the one before, {}", self.x[row - 1]),
-                    x,
-                );
-            }
         }
-        if self.x.len() < 2 {
-            let found = self.x.len().to_string();
-            return Err(BadInput::new(file.to_string(), "", "at least two rows", found).into());
+        if rows < 2 {
+            let (file, found) = (path.display().to_string(), rows.to_string());
+            return Err(BadInput::new(file, "", "at least two rows", found).into());
         }
         Ok(())
+    }
+
+    /// Checks that the first column ascends.
+    fn ascending(self, path: &Path) -> Result<Self> {
+        let first = &self.values[0];
+        match first.windows(2).position(|pair| pair[1] <= pair[0]) {
+            None => Ok(self),
+            Some(row) => {
+                let expected = format!("a value above the one before, {}", first[row]);
+                Err(self.bad(path, row + 1, 0, expected))
+            }
+        }
     }
 }
 
@@ -75,7 +98,7 @@ fn is_parquet(path: &Path) -> bool {
     by_name || (by_content.is_ok() && magic == *b"PAR1")
 }
 
-fn parquet(path: &Path, x: Option<&str>, y: Option<&str>) -> Result<Columns> {
+fn parquet<const N: usize>(path: &Path, wanted: [Option<&str>; N]) -> Result<Columns<N>> {
     let input = Input::open(path, "a table (Parquet or CSV)")?;
     let names: Vec<String> = input
         .schema()
@@ -83,36 +106,50 @@ fn parquet(path: &Path, x: Option<&str>, y: Option<&str>) -> Result<Columns> {
         .iter()
         .map(|field| field.name().clone())
         .collect();
-    let columns = choose(&input.place(), &names, x, y)?;
+    let columns = choose(&input.place(), &names, wanted)?;
     let mut read = input.numbers(&columns)?.into_iter();
-    let mut next = || read.next().unwrap_or_default();
     Ok(Columns {
         names: columns.map(|column| names[column].clone()),
-        x: next(),
-        y: next(),
+        values: columns.map(|_| read.next().unwrap_or_default()),
         lines: Vec::new(),
     })
 }
 
-/// The indices of the two columns: those asked for, and by default the first two.
-fn choose(place: &str, names: &[String], x: Option<&str>, y: Option<&str>) -> Result<[usize; 2]> {
-    let index = |name: Option<&str>, default: usize| match name {
-        None if default < names.len() => Ok(default),
-        None => Err(BadInput::new(
-            place,
-            "",
-            "two columns",
-            names.len().to_string(),
-        )),
-        Some(name) => names.iter().position(|known| known == name).ok_or_else(|| {
-            let found = format!("the columns {}", names.join(", "));
-            BadInput::new(place, "", format!("a column `{name}`"), found)
-        }),
-    };
-    Ok([index(x, 0)?, index(y, 1)?])
+/// The indices of the columns: those asked for, and by default the first ones.
+fn choose<const N: usize>(
+    place: &str,
+    names: &[String],
+    wanted: [Option<&str>; N],
+) -> Result<[usize; N]> {
+    let mut chosen = [0; N];
+    for (default, name) in wanted.into_iter().enumerate() {
+        chosen[default] = match name {
+            None if default < names.len() => default,
+            None => {
+                let (expected, found) = (count_of_columns(N), names.len().to_string());
+                return Err(BadInput::new(place, "", expected, found).into());
+            }
+            Some(name) => names
+                .iter()
+                .position(|known| known == name)
+                .ok_or_else(|| {
+                    let found = format!("the columns {}", names.join(", "));
+                    BadInput::new(place, "", format!("a column `{name}`"), found)
+                })?,
+        };
+    }
+    Ok(chosen)
 }
 
-fn text(path: &Path, x: Option<&str>, y: Option<&str>) -> Result<Columns> {
+fn count_of_columns(count: usize) -> &'static str {
+    if count == 1 {
+        "a column"
+    } else {
+        "two columns"
+    }
+}
+
+fn text<const N: usize>(path: &Path, wanted: [Option<&str>; N]) -> Result<Columns<N>> {
     let place = path.display().to_string();
     let bytes = std::fs::read(path).map_err(|e| match e.kind() {
         std::io::ErrorKind::NotFound => {
@@ -139,7 +176,7 @@ fn text(path: &Path, x: Option<&str>, y: Option<&str>) -> Result<Columns> {
     let separator = Separator::of(first);
     let head = separator.split(first);
     let is_head = head.iter().any(|field| field.parse::<f64>().is_err());
-    if !is_head && (x.is_some() || y.is_some()) {
+    if !is_head && wanted.iter().any(Option::is_some) {
         let error = BadInput::new(
             format!("{place}:{line}"),
             "",
@@ -156,10 +193,11 @@ fn text(path: &Path, x: Option<&str>, y: Option<&str>) -> Result<Columns> {
             .map(|column| format!("column {column}"))
             .collect()
     };
-    let chosen = choose(&place, &names, x, y)?;
+    let chosen = choose(&place, &names, wanted)?;
     let mut columns = Columns {
         names: chosen.map(|column| names[column].clone()),
-        ..Columns::default()
+        values: chosen.map(|_| Vec::new()),
+        lines: Vec::new(),
     };
     for (line, row) in rows {
         let fields = separator.split(row);
@@ -181,8 +219,9 @@ fn text(path: &Path, x: Option<&str>, y: Option<&str>) -> Result<Columns> {
                 }
             })
         };
-        columns.x.push(number(chosen[0])?);
-        columns.y.push(number(chosen[1])?);
+        for (values, column) in columns.values.iter_mut().zip(chosen) {
+            values.push(number(column)?);
+        }
         columns.lines.push(line);
     }
     Ok(columns)
@@ -293,6 +332,19 @@ mod tests {
         assert!(
             message("x;y\n0,5;1\n", None, None).ends_with("write numbers with a decimal point")
         );
+    }
+
+    #[test]
+    fn one_column_in_any_order() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("samples.csv");
+        for (content, column) in [("3\n1\n2\n", None), ("a,b\n0,3\n0,1\n0,2\n", Some("b"))] {
+            std::fs::write(&path, content).unwrap();
+            assert_eq!(read_column(&path, column).unwrap(), [3.0, 1.0, 2.0]);
+        }
+        std::fs::write(&path, "3\nnan\n").unwrap();
+        let error = read_column(&path, None).unwrap_err().to_string();
+        assert!(error.ends_with("samples.csv:2: column 1: expected a finite number, found NaN"));
     }
 
     #[test]

@@ -2,9 +2,12 @@
 //!
 //! Every random quantity is a function of independent standard normals x₁ ... x_s; a rule chooses N
 //! points in that space and gives each its probability P_q, Σ P_q = 1. Randomness is keyed by (seed,
-//! point, dimension), never by the order of the work, so that any range of points can be made alone.
+//! point, dimension), never by the order of the work, so that any range of points can be made alone. Random parameters are values of a
+//! [`distribution`] at the normals, correlated by a [`copula`].
 
+pub mod copula;
 pub mod discrepancy;
+pub mod distribution;
 mod error;
 mod gf_discrepancy;
 mod grid;

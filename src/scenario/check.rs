@@ -115,7 +115,7 @@ impl<'a> Node<'a> {
         match self {
             Node::Table(_) => "a table".to_owned(),
             Node::List(list) if list.is_empty() => "an empty list".to_owned(),
-            Node::List(_) => "a list".to_owned(),
+            Node::List(list) => format!("a list of {}", list.len()),
             Node::Value(value) => value.to_string().trim().to_owned(),
         }
     }
@@ -152,9 +152,11 @@ fn shaped(
         Shape::List {
             items,
             min_items,
+            max_items,
             unique,
         } => {
-            let list = node.list().filter(|list| list.len() as u64 >= *min_items);
+            let fits = |length: usize| (*min_items..=*max_items).contains(&(length as u64));
+            let list = node.list().filter(|list| fits(list.len()));
             list.map(|entries| list_of(scenario, key, items, *unique, entries))
         }
         Shape::Table => node

@@ -24,6 +24,7 @@ mod irregularity;
 mod overrides;
 mod place;
 mod points;
+mod random;
 mod reliability;
 mod schema;
 mod shape;
@@ -49,6 +50,11 @@ pub use irregularity::{
     Sided, SineSpec, SpectrumSpec, SpectrumTableSpec, WavenumberSpec, WavenumberUnit,
 };
 pub use points::{PointsSpec, RuleKind};
+pub use random::{
+    BetaSpec, CorrelationKind, CorrelationSpec, DistributionSpec, ExponentialSpec, ExtremeKind,
+    GammaSpec, GumbelSpec, LognormalSpec, NormalSpec, RandomParameter, RandomParameters,
+    RandomSpec, RowsKind, TableSpec, TruncatedNormalSpec, UniformSpec, WeibullSpec,
+};
 pub use reliability::{LimitKind, LimitSpec, ReliabilitySpec};
 pub use schema::{ScenarioSpec, json_schema};
 pub use simulation::{Compression, InitialState, IntegratorKind, Precision, SimulationSpec};
@@ -203,6 +209,8 @@ impl Scenario {
             irregularity: self.optional()?,
             bridge: self.optional()?,
             vehicle: self.optional()?,
+            random: self.optional()?,
+            correlation: self.optional()?,
             simulation: self.optional()?,
             density: self.optional()?,
             reliability: self.optional()?,
@@ -210,6 +218,10 @@ impl Scenario {
         if let (Some(points), Some(irregularity)) = (&all.points, &all.irregularity) {
             self.check_truncation(points, irregularity)?;
         }
+        self.check_random(
+            all.random.as_deref().unwrap_or_default(),
+            all.correlation.as_deref().unwrap_or_default(),
+        )?;
         self.check_recorded(&all)?;
         Ok(all)
     }
@@ -228,7 +240,8 @@ impl Scenario {
         let Some(item) = self.effective.get(T::NAME) else {
             return Ok(None);
         };
-        let value = check::top_table(self, T::NAME, item)?;
+        let item = self.with_means(T::NAME, item)?;
+        let value = check::top_table(self, T::NAME, &item)?;
         // The check leaves nothing to refuse here; should it ever, the path is still in the message.
         let table: T = serde_path_to_error::deserialize(value).map_err(|e| {
             let key = format!("{}.{}", T::NAME, e.path());

@@ -96,7 +96,7 @@ type Misfit = (String, String);
 
 /// Sets the value at `path` (one name at least) below `table`. Tables that don't exist yet are made, inline ones where
 /// `inline`.
-fn set_in_table(
+pub(super) fn set_in_table(
     table: &mut dyn TableLike,
     path: &[&str],
     value: Value,

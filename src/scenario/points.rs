@@ -32,6 +32,9 @@ pub struct PointsSpec {
     /// than there are points. 0: none.
     #[serde(default)]
     pub moment_matching: u32,
+    /// Number of leading standard normals that are kept for each point, those of the random parameters first; by
+    /// default these and 50 of the irregularity. At most all that there are.
+    pub variables: Option<u32>,
     /// Seed of the random numbers. The same seed gives the same bytes. Of no effect on `gf-discrepancy` and `grid`.
     #[serde(default = "default_seed")]
     pub seed: u64,

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    BridgeSpec, DensitySpec, IrregularitySpec, PointsSpec, ReliabilitySpec, SimulationSpec,
-    VehicleSpec,
+    BridgeSpec, CorrelationSpec, DensitySpec, IrregularitySpec, PointsSpec, RandomSpec,
+    ReliabilitySpec, SimulationSpec, VehicleSpec,
 };
 
 /// A whole scenario: one table a stage. Every value is in SI units.
@@ -28,6 +28,10 @@ pub struct ScenarioSpec {
     pub bridge: Option<BridgeSpec>,
     /// The vehicle that crosses the bridge.
     pub vehicle: Option<VehicleSpec>,
+    /// Random parameters: numbers of the bridge and the vehicle with a distribution each.
+    pub random: Option<Vec<RandomSpec>>,
+    /// Correlations of random parameters; those that are not named are 0.
+    pub correlation: Option<Vec<CorrelationSpec>>,
     /// Integration in time, and what is recorded.
     pub simulation: Option<SimulationSpec>,
     /// Probability densities of the responses.

@@ -16,6 +16,7 @@ pub(super) enum Shape<'s> {
     List {
         items: &'s Json,
         min_items: u64,
+        max_items: u64,
         unique: bool,
     },
     /// A table with its keys.
@@ -45,6 +46,7 @@ impl<'s> Shape<'s> {
             Some("array") => Shape::List {
                 items: &schema["items"],
                 min_items: schema["minItems"].as_u64().unwrap_or(0),
+                max_items: schema["maxItems"].as_u64().unwrap_or(u64::MAX),
                 unique: schema["uniqueItems"] == true,
             },
             Some("object") => Shape::Table,
@@ -76,7 +78,10 @@ impl<'s> Shape<'s> {
             Shape::Text { min_length: 1.. } => "a string that is not empty".to_owned(),
             Shape::Choice(choices) => one_of(choices),
             Shape::List {
-                items, min_items, ..
+                items,
+                min_items,
+                max_items,
+                ..
             } => {
                 let entries = match Shape::of(items) {
                     Shape::Number(..) | Shape::Integer(_) => "numbers",
@@ -86,6 +91,7 @@ impl<'s> Shape<'s> {
                 };
                 match min_items {
                     0 => format!("a list of {entries}"),
+                    _ if min_items == max_items => format!("a list of {min_items} {entries}"),
                     1.. => format!("a list of {entries} that is not empty"),
                 }
             }
@@ -121,6 +127,7 @@ fn tagged(alternatives: &[Json]) -> Option<Shape<'_>> {
 }
 
 /// The bounds of a number.
+#[derive(Debug, Clone)]
 pub(super) struct Bounds {
     above: Option<f64>,
     at_least: Option<f64>,
@@ -152,6 +159,15 @@ impl Bounds {
             && self.below.is_none_or(|bound| value < bound)
             && self.at_most.is_none_or(|bound| value <= bound)
             && value <= self.widest
+    }
+
+    /// The largest number too small and, but for rounding, the smallest too large, where there are bounds: no allowed
+    /// number is up to the first, or above the second.
+    pub(super) fn outermost(&self) -> (Option<f64>, Option<f64>) {
+        (
+            self.above.or(self.at_least.map(f64::next_down)),
+            self.below.map(f64::next_down).or(self.at_most),
+        )
     }
 
     fn in_words(&self) -> String {

@@ -4,6 +4,7 @@ use super::*;
 
 mod bad;
 mod overrides;
+mod random;
 mod schema;
 
 fn repository() -> PathBuf {
@@ -26,7 +27,7 @@ fn example() -> Scenario {
 /// A scenario that, with the example and what is in `KINDS`, has every key that there is.
 const FULL: &str = r#"
 title = "Every key"
-points = { rule = "partially-stratified", count = 987, truncate_at = 3, moment_matching = 50, seed = 7 }
+points = { rule = "partially-stratified", count = 987, truncate_at = 3, moment_matching = 50, seed = 7, variables = 20 }
 
 [irregularity]
 spectrum = { kind = "table", file = "spectra/track.csv", sided = "one", unit = "cycles/m", wavenumber_column = "n", density_column = "G" }
@@ -86,6 +87,51 @@ quantities = ["bridge/quarter/stress"]
 smoothing = { rule = "factor" }
 confidence = 0.9
 limit = [{ name = "stress", quantity = "bridge/quarter/stress", kind = "lower", threshold = -1e6 }]
+
+[[random]]
+key = "bridge.flexural_rigidity"
+distribution = { kind = "normal", mean = 2.6e9, standard_deviation = 1e8 }
+
+[[random]]
+key = "bridge.mass_per_length"
+distribution = { kind = "truncated-normal", location = 6067, scale = 300, lower = 5000, upper = 7000 }
+
+[[random]]
+key = "vehicle.body_mass"
+distribution = { kind = "lognormal", log_mean = 9.4, log_standard_deviation = 0.1 }
+
+[[random]]
+key = "vehicle.wheel_mass"
+distribution = { kind = "uniform", lower = 450, upper = 550 }
+
+[[random]]
+key = "vehicle.suspension_stiffness"
+distribution = { kind = "beta", alpha = 2, beta = 3.5, lower = 200e3, upper = 400e3 }
+
+[[random]]
+key = "vehicle.tyre_stiffness"
+distribution = { kind = "gamma", shape = 100, scale = 1560 }
+
+[[random]]
+key = "vehicle.speed"
+distribution = { kind = "gumbel", mode = 20, scale = 0.5, extreme = "smallest" }
+
+[[random]]
+key = "bridge.section_modulus"
+distribution = { kind = "weibull", shape = 5, scale = 0.5 }
+
+[[random]]
+key = "bridge.damping_ratio"
+distribution = { kind = "exponential", rate = 200, lower = 0.005 }
+
+[[random]]
+key = "vehicle.bump_stop.gap"
+distribution = { kind = "table", file = "gap.csv", rows = "quantiles", value_column = "x", probability_column = "p" }
+
+[[correlation]]
+keys = ["bridge.flexural_rigidity", "bridge.mass_per_length"]
+coefficient = 0.5
+of = "parameters"
 "#;
 
 /// Overrides of `FULL` to the kinds that it has not.

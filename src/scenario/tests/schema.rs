@@ -57,6 +57,7 @@ fn is_tag(key: &str) -> bool {
         ".irregularity.spectrum.kind",
         ".irregularity.deterministic.kind",
         ".density.smoothing.rule",
+        ".random.distribution.kind",
         ".reliability.smoothing.rule",
     ];
     tags.contains(&key)
@@ -78,6 +79,7 @@ fn the_specs_and_the_schema_have_the_same_keys() {
         kinds(&[
             r#"density.smoothing={ rule = "factor" }"#,
             r#"reliability.smoothing={ rule = "fixed", width = 1 }"#,
+            r#"random.0.distribution={ kind = "gamma", mean = 2.6e9, coefficient_of_variation = 0.1 }"#,
         ]),
     ] {
         let specs = serde_json::to_value(scenario.check_all().unwrap()).unwrap();
@@ -102,16 +104,24 @@ fn every_key_is_described_and_every_number_has_its_unit() {
         ".reliability.limit.threshold",
         ".reliability.smoothing.factor",
         ".reliability.smoothing.width",
+        ".correlation.coefficient",
         ".vehicle.suspension_damping_ratio",
     ];
+    // These have the unit of the random parameter.
+    let of_any_unit = ".random.distribution.";
+    let lists_of_names = [
+        ".correlation.keys",
+        ".density.quantities",
+        ".simulation.record",
+    ];
     for (key, schema) in all {
-        let is_entry = matches!(key.as_str(), ".simulation.record" | ".density.quantities");
+        let is_entry = lists_of_names.contains(&key.as_str());
         let is_described = schema["description"].is_string();
         assert!(is_described || is_entry, "{key}");
         if let Shape::Number(_, unit) = Shape::of(schema) {
             assert_eq!(
                 unit.is_none(),
-                without_unit.contains(&key.as_str()),
+                without_unit.contains(&key.as_str()) || key.starts_with(of_any_unit),
                 "{key}"
             );
         }
@@ -148,11 +158,14 @@ fn every_choice_is_one_that_serde_knows() {
                 ".simulation.initial_state" => read::<InitialState>(json),
                 ".simulation.precision" => read::<Precision>(json),
                 ".simulation.compression" => read::<Compression>(json),
+                ".random.distribution.extreme" => read::<ExtremeKind>(json),
+                ".random.distribution.rows" => read::<RowsKind>(json),
+                ".correlation.of" => read::<CorrelationKind>(json),
                 ".density.grid" => read::<GridKind>(json),
                 ".reliability.limit.kind" => read::<LimitKind>(json),
                 other => panic!("{other} is not tested here"),
             }
         }
     }
-    assert_eq!(count, 32);
+    assert_eq!(count, 38);
 }

@@ -1,0 +1,148 @@
+//! Which keys of a scenario can be random.
+
+use serde_json::Value as Json;
+use toml_edit::Item;
+
+use crate::BadInput;
+use crate::scenario::shape::{Bounds, Shape};
+use crate::scenario::suggestion::nearest;
+use crate::scenario::{Scenario, schema};
+
+/// The tables that a run at each point uses: every number in them can be random.
+const TABLES: [&str; 2] = ["bridge", "vehicle"];
+
+/// Why keys of the other tables can't be.
+fn reason(table: &str) -> Option<&'static str> {
+    match table {
+        "points" => Some("the random parameters are drawn at the points"),
+        "irregularity" => Some("the irregularity is random by its spectrum"),
+        "simulation" => Some("all points share the times and the scheme"),
+        "density" | "reliability" => Some("it is about all points at once"),
+        _ => None,
+    }
+}
+
+/// Whether numbers of the table can be random.
+pub(in crate::scenario) fn can_be_random(table: &str) -> bool {
+    TABLES.contains(&table)
+}
+
+/// A number of the scenario that can be random.
+#[derive(Debug, Clone)]
+pub(super) struct Number {
+    /// As in the schema; 1 for a number without one.
+    pub unit: String,
+    pub bounds: Bounds,
+    /// What an error message expects.
+    pub expected: String,
+}
+
+/// What a path leads to.
+enum Found {
+    Number(Number),
+    /// Something else: what, and why it can't be random.
+    Other(&'static str),
+    Nothing,
+}
+
+/// The number with the name `name`; `at` is the key that names it.
+pub(super) fn number(scenario: &Scenario, at: &str, name: &str) -> Result<Number, BadInput> {
+    let path: Vec<&str> = name.split('.').collect();
+    let expected = "the key of a number of [bridge] or [vehicle]";
+    let refused = |found: String| scenario.bad(at, expected, found);
+    if let Some(reason) = reason(path[0]) {
+        return Err(refused(format!("{name:?}")).remedy(format!("it can't be random: {reason}")));
+    }
+    let found = if can_be_random(path[0]) {
+        let item = scenario.effective.get(path[0]);
+        find(&schema::shared()["properties"][path[0]], item, &path[1..])
+    } else {
+        Found::Nothing
+    };
+    match found {
+        Found::Number(number) => Ok(number),
+        Found::Other(what) => Err(refused(format!("{name:?}, {what}"))),
+        Found::Nothing => {
+            let known = all(scenario);
+            let error = refused(format!("{name:?}"));
+            let ends = format!(".{name}");
+            let within = known.iter().find(|key| key.ends_with(&ends));
+            let meant = within
+                .map(String::as_str)
+                .or_else(|| nearest(name, known.iter().map(String::as_str)));
+            Err(match meant {
+                Some(meant) => error.remedy(format!("did you mean {meant:?}?")),
+                None => error.remedy(format!("known are {}", known.join(", "))),
+            })
+        }
+    }
+}
+
+fn find(schema: &Json, item: Option<&Item>, path: &[&str]) -> Found {
+    let shape = Shape::of(schema);
+    let property = || {
+        let (name, rest) = path.split_first()?;
+        let property = schema["properties"].get(*name)?;
+        Some(find(property, item.and_then(|item| item.get(*name)), rest))
+    };
+    match &shape {
+        Shape::Number(bounds, unit) if path.is_empty() => Found::Number(Number {
+            unit: unit.unwrap_or("1").to_owned(),
+            bounds: bounds.clone(),
+            expected: shape.expected_for(None),
+        }),
+        Shape::Integer(_) if path.is_empty() => {
+            Found::Other("a whole number, which all points share")
+        }
+        Shape::Text { .. } | Shape::Choice(_) if path.is_empty() => Found::Other("a text"),
+        Shape::List { .. } => Found::Other("a list, which all points share"),
+        Shape::Table if path.is_empty() => Found::Other("a table"),
+        Shape::Table => property().unwrap_or(Found::Nothing),
+        Shape::Tagged { .. } if path.is_empty() => Found::Other("a table"),
+        Shape::Tagged { tag, alternatives } => {
+            let kind = item.and_then(|item| item.get(*tag)?.as_str());
+            let meant = |name: &str| kind.is_none_or(|kind| kind == name);
+            let mut found = alternatives
+                .iter()
+                .filter(|(name, _)| meant(name))
+                .map(|(_, schema)| find(schema, item, path));
+            found
+                .find(|found| !matches!(found, Found::Nothing))
+                .unwrap_or(Found::Nothing)
+        }
+        Shape::Number(..) | Shape::Integer(_) | Shape::Text { .. } | Shape::Choice(_) => {
+            Found::Nothing
+        }
+    }
+}
+
+/// All keys that can be random in this scenario, with its kinds.
+fn all(scenario: &Scenario) -> Vec<String> {
+    let mut keys = Vec::new();
+    for table in TABLES {
+        let schema = &schema::shared()["properties"][table];
+        gather(table, schema, scenario.effective.get(table), &mut keys);
+    }
+    keys
+}
+
+fn gather(key: &str, schema: &Json, item: Option<&Item>, keys: &mut Vec<String>) {
+    match Shape::of(schema) {
+        Shape::Number(..) => keys.push(key.to_owned()),
+        Shape::Table => {
+            for (name, property) in schema["properties"].as_object().into_iter().flatten() {
+                let item = item.and_then(|item| item.get(name.as_str()));
+                gather(&format!("{key}.{name}"), property, item, keys);
+            }
+        }
+        Shape::Tagged { tag, alternatives } => {
+            let kind = item.and_then(|item| item.get(tag)?.as_str());
+            for (name, schema) in alternatives {
+                if kind.is_none_or(|kind| kind == name) {
+                    gather(key, schema, item, keys);
+                }
+            }
+        }
+        Shape::Integer(_) | Shape::Text { .. } | Shape::Choice(_) | Shape::List { .. } => {}
+    }
+}
