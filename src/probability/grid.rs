@@ -11,14 +11,14 @@ use std::ops::Range;
 
 /// A grid in at most two variables.
 #[derive(Debug, Clone)]
-pub struct Grid {
+pub struct MidpointGrid {
     count: usize,
     dimensions: usize,
     /// Cells in each variable.
     side: usize,
 }
 
-impl Grid {
+impl MidpointGrid {
     /// Most variables.
     pub const MOST_DIMENSIONS: usize = 2;
 
@@ -30,7 +30,7 @@ impl Grid {
             0 | 1 => count,
             _ => square_root(count)?,
         };
-        Ok(Grid {
+        Ok(MidpointGrid {
             count,
             dimensions,
             side,
@@ -38,7 +38,7 @@ impl Grid {
     }
 }
 
-impl PointRule for Grid {
+impl PointRule for MidpointGrid {
     fn count(&self) -> usize {
         self.count
     }

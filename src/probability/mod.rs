@@ -24,7 +24,7 @@ mod subspaces;
 
 pub use error::RuleError;
 pub use gf_discrepancy::GfDiscrepancy;
-pub use grid::Grid;
+pub use grid::MidpointGrid;
 pub use independent::{LatinHypercube, MonteCarlo};
 pub use latinized::LatinizedPartiallyStratified;
 pub use lattice::Lattice;

@@ -45,8 +45,8 @@ fn rules(count: usize, dimensions: usize, seed: u64) -> Vec<(&'static str, Box<d
 /// Of few dimensions, with cells or a grid.
 fn small_rules() -> Vec<(&'static str, Box<dyn PointRule>)> {
     vec![
-        ("grid 1", Box::new(Grid::new(37, 1).unwrap())),
-        ("grid 2", Box::new(Grid::new(529, 2).unwrap())),
+        ("grid 1", Box::new(MidpointGrid::new(37, 1).unwrap())),
+        ("grid 2", Box::new(MidpointGrid::new(529, 2).unwrap())),
         ("gf 1", Box::new(GfDiscrepancy::new(200, 1).unwrap())),
         ("gf 4", Box::new(GfDiscrepancy::new(500, 4).unwrap())),
     ]
@@ -106,7 +106,7 @@ fn no_variables_are_no_error() {
             "gf-discrepancy",
             Box::new(GfDiscrepancy::new(10, 0).unwrap()),
         ),
-        ("grid", Box::new(Grid::new(10, 0).unwrap())),
+        ("grid", Box::new(MidpointGrid::new(10, 0).unwrap())),
     ] {
         assert_eq!((rule.count(), rule.note()), (10, None), "{name}");
         rule.standard_normals(0..10, &mut []);
@@ -184,8 +184,8 @@ fn latinized_cells_hold_one_point_in_each_subspace_and_are_paired_at_random() {
 fn grids_are_the_middles_of_cells() {
     let n = 49;
     for (rule, axes) in [
-        (Grid::new(n, 1).unwrap(), [49, 1]),
-        (Grid::new(n, 2).unwrap(), [7, 7]),
+        (MidpointGrid::new(n, 1).unwrap(), [49, 1]),
+        (MidpointGrid::new(n, 2).unwrap(), [7, 7]),
     ] {
         let x = all(&rule);
         for (d, row) in x.chunks_exact(n).enumerate() {
@@ -214,10 +214,10 @@ fn counts_and_dimensions_that_cannot_be_had_are_named() {
     };
     let error = LatinizedPartiallyStratified::new(984, 4, 0, 1).unwrap_err();
     assert_eq!(error, squares);
-    assert_eq!(Grid::new(984, 2).unwrap_err(), squares);
-    assert!(Grid::new(984, 1).is_ok());
+    assert_eq!(MidpointGrid::new(984, 2).unwrap_err(), squares);
+    assert!(MidpointGrid::new(984, 1).is_ok());
     let dimensions = |most, found| RuleError::Dimensions { most, found };
-    assert_eq!(Grid::new(4, 3).unwrap_err(), dimensions(2, 3));
+    assert_eq!(MidpointGrid::new(4, 3).unwrap_err(), dimensions(2, 3));
     assert_eq!(Sobol::new(4, 4097, 1).unwrap_err(), dimensions(4096, 4097));
     assert_eq!(
         PartiallyStratified::new(4, Some(0.1), 2, 0, 1).unwrap_err(),

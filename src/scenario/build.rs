@@ -2,12 +2,16 @@
 
 use super::{
     BridgeSpec, FieldKind, FilterForm, GridKind, InitialState, IntegratorKind, IrregularitySpec,
-    LimitKind, QuarterCarSpec, Scenario, SecondOrderFilterSpec, SimulationSpec, SmoothingSpec,
-    VehicleSpec,
+    LimitKind, PointsSpec, QuarterCarSpec, RuleKind, Scenario, SecondOrderFilterSpec,
+    SimulationSpec, SmoothingSpec, VehicleSpec,
 };
 use crate::density::{self, Smoothing};
 use crate::integrate::Integrator;
 use crate::irregularity::{self, FieldForm, Grid, SecondOrderFilter};
+use crate::probability::{
+    GfDiscrepancy, LatinHypercube, LatinizedPartiallyStratified, MidpointGrid, MomentMatched,
+    MonteCarlo, PartiallyStratified, PointRule, RankOneLattice, RuleError, Sobol,
+};
 use crate::quantity::{BridgeResponse, Quantity};
 use crate::reliability::Side;
 use crate::system::{self, Beam, BumpStop, Crossing, QuarterCar, Section};
@@ -18,6 +22,52 @@ const MOST_POSITIONS: usize = 1_000_000;
 
 /// Time steps of a run, at most: what all points share is kept for each of them.
 const MOST_STEPS: f64 = 1e7;
+
+impl PointsSpec {
+    /// The points of `dimensions` random variables, in order of decreasing importance but for the leading
+    /// `parameters`, which share no two-dimensional subspace with the others.
+    ///
+    /// # Errors
+    /// A number of points or of variables that the rule can't have.
+    pub fn build(
+        &self,
+        dimensions: usize,
+        parameters: usize,
+    ) -> Result<Box<dyn PointRule>, RuleError> {
+        let rule = self.unmatched(dimensions, parameters)?;
+        Ok(match self.moment_matching as usize {
+            0 => rule,
+            matched => Box::new(MomentMatched::new(rule, matched)?),
+        })
+    }
+
+    /// The points before their moments are matched.
+    pub(super) fn unmatched(
+        &self,
+        dimensions: usize,
+        parameters: usize,
+    ) -> Result<Box<dyn PointRule>, RuleError> {
+        let (count, seed) = (self.count as usize, self.seed);
+        Ok(match self.rule {
+            RuleKind::MonteCarlo => Box::new(MonteCarlo::new(count, dimensions, seed)),
+            RuleKind::LatinHypercube => Box::new(LatinHypercube::new(count, dimensions, seed)),
+            RuleKind::Sobol => Box::new(Sobol::new(count, dimensions, seed)?),
+            RuleKind::Lattice => Box::new(RankOneLattice::new(count, dimensions, seed)?),
+            RuleKind::PartiallyStratified => Box::new(PartiallyStratified::new(
+                count,
+                self.truncate_at,
+                dimensions,
+                parameters,
+                seed,
+            )?),
+            RuleKind::LatinizedPartiallyStratified => Box::new(LatinizedPartiallyStratified::new(
+                count, dimensions, parameters, seed,
+            )?),
+            RuleKind::GfDiscrepancy => Box::new(GfDiscrepancy::new(count, dimensions)?),
+            RuleKind::Grid => Box::new(MidpointGrid::new(count, dimensions)?),
+        })
+    }
+}
 
 impl SecondOrderFilterSpec {
     pub fn build(&self) -> SecondOrderFilter {

@@ -5,10 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::irregularity::{FieldKind, IrregularitySpec};
 use super::{Scenario, Table};
-use crate::probability::{
-    GfDiscrepancy, Grid, LatinHypercube, LatinizedPartiallyStratified, MomentMatched, MonteCarlo,
-    PartiallyStratified, PointRule, RankOneLattice, RuleError, Sobol,
-};
+use crate::probability::{MomentMatched, PointRule, RuleError};
 use crate::{BadInput, Result};
 
 /// The representative points of the random variables.
@@ -111,52 +108,6 @@ impl Table for PointsSpec {
                 format!("rule = \"{}\"", self.rule.name()),
             )
             .remedy("leave it out or change the rule"))
-    }
-}
-
-impl PointsSpec {
-    /// The points of `dimensions` random variables, in order of decreasing importance but for the leading
-    /// `parameters`, which share no two-dimensional subspace with the others.
-    ///
-    /// # Errors
-    /// A number of points or of variables that the rule can't have.
-    pub fn build(
-        &self,
-        dimensions: usize,
-        parameters: usize,
-    ) -> Result<Box<dyn PointRule>, RuleError> {
-        let rule = self.unmatched(dimensions, parameters)?;
-        Ok(match self.moment_matching as usize {
-            0 => rule,
-            matched => Box::new(MomentMatched::new(rule, matched)?),
-        })
-    }
-
-    /// The points before their moments are matched.
-    fn unmatched(
-        &self,
-        dimensions: usize,
-        parameters: usize,
-    ) -> Result<Box<dyn PointRule>, RuleError> {
-        let (count, seed) = (self.count as usize, self.seed);
-        Ok(match self.rule {
-            RuleKind::MonteCarlo => Box::new(MonteCarlo::new(count, dimensions, seed)),
-            RuleKind::LatinHypercube => Box::new(LatinHypercube::new(count, dimensions, seed)),
-            RuleKind::Sobol => Box::new(Sobol::new(count, dimensions, seed)?),
-            RuleKind::Lattice => Box::new(RankOneLattice::new(count, dimensions, seed)?),
-            RuleKind::PartiallyStratified => Box::new(PartiallyStratified::new(
-                count,
-                self.truncate_at,
-                dimensions,
-                parameters,
-                seed,
-            )?),
-            RuleKind::LatinizedPartiallyStratified => Box::new(LatinizedPartiallyStratified::new(
-                count, dimensions, parameters, seed,
-            )?),
-            RuleKind::GfDiscrepancy => Box::new(GfDiscrepancy::new(count, dimensions)?),
-            RuleKind::Grid => Box::new(Grid::new(count, dimensions)?),
-        })
     }
 }
 

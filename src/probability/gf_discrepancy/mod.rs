@@ -54,7 +54,7 @@ impl GfDiscrepancy {
     /// Most variables with Voronoi cells.
     pub const MOST_DIMENSIONS_OF_CELLS: usize = 6;
 
-    /// Most points: each variable's ranks are kept.
+    /// Most points: a byte is kept for each coordinate.
     pub const MOST_POINTS: usize = 1_000_000;
 
     /// # Errors
