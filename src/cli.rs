@@ -126,6 +126,9 @@ pub struct Density {
     /// Also write moments and quantiles of every quantity and time
     #[arg(long, value_name = "FILE")]
     pub moments: Option<PathBuf>,
+    /// How densities are made of the responses, in place of the scenario's method
+    #[arg(long, value_enum)]
+    pub method: Option<DensityMethod>,
 }
 
 #[derive(Debug, Args)]
@@ -140,6 +143,15 @@ pub struct Reliability {
     /// Also write the density of every limit's extreme value
     #[arg(long, value_name = "FILE")]
     pub extremes: Option<PathBuf>,
+}
+
+/// How densities are made of the responses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DensityMethod {
+    /// A smoothed sum over the points, each time by itself
+    DirectIntegral,
+    /// Each point's probability is moved by its velocity
+    DensityEvolution,
 }
 
 /// The figures.

@@ -1,5 +1,7 @@
 //! `dpim density`: the probability density of every quantity at every time.
 
+mod evolution;
+
 use super::Context;
 use super::responses::{self, Source};
 use crate::Result;
@@ -8,6 +10,7 @@ use crate::density::{Moments, Options, TimeDensity, estimate};
 use crate::files::recording::Recordings;
 use crate::files::tables::{DensityWriter, MomentsRow, MomentsWriter};
 use crate::files::{Kind, OutputFile};
+use crate::scenario::{DensitySpec, MethodKind};
 
 pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
     let mut outputs = vec![("--output", args.output.output.as_path())];
@@ -17,7 +20,11 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
             .map(|path| ("--moments", path.as_path())),
     );
     super::check_distinct(&args.scenario.inputs(&args.recordings), &outputs)?;
-    let (recordings, scenario) = responses::open(context, &args.recordings, &args.scenario)?;
+    let (recordings, mut scenario) = responses::open(context, &args.recordings, &args.scenario)?;
+    if let Some(method) = args.method {
+        // In the scenario, so that the outputs tell it.
+        scenario = scenario.set(&[DensitySpec::choose(method.into())])?;
+    }
     let spec = scenario.density()?;
     let wanted = responses::chosen(&recordings, &scenario, spec.quantities.as_deref())?;
     let options = Options {
@@ -25,11 +32,14 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
         points_per_time: spec.points_per_time as usize,
         grid: spec.grid.build(),
     };
+    let how = match spec.method {
+        MethodKind::DirectIntegral => format!("smoothing by {}", options.smoothing.name()),
+        MethodKind::DensityEvolution => "density evolution".to_owned(),
+    };
     context.detail(format!(
-        "{} points, {} times, smoothing by {}",
+        "{} points, {} times, {how}",
         recordings.points(),
         recordings.times().len(),
-        options.smoothing.name()
     ));
     let stamp = |kind| responses::stamp(kind, &recordings, &scenario);
     let clobber = !args.output.no_clobber;
@@ -53,18 +63,31 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
         node: Vec::new(),
     };
     let bar = context.progress("density", (wanted.len() * recordings.times().len()) as u64);
-    for quantities in responses::by_axis(&recordings, wanted) {
-        let Some(first) = quantities.first() else {
-            continue;
-        };
-        let source = Source {
-            recordings: &recordings,
-            times: recordings.times_of(*first),
-        };
-        estimate(&source, &quantities, options, |result| {
-            bar.inc(1);
-            tables.append(source.times[result.time], &result)
-        })?;
+    match spec.method {
+        MethodKind::DirectIntegral => {
+            for quantities in responses::by_axis(&recordings, wanted) {
+                let Some(first) = quantities.first() else {
+                    continue;
+                };
+                let source = Source {
+                    recordings: &recordings,
+                    times: recordings.times_of(*first),
+                };
+                estimate(&source, &quantities, options, |result| {
+                    bar.inc(1);
+                    tables.append(source.times[result.time], &result)
+                })?;
+            }
+        }
+        MethodKind::DensityEvolution => {
+            let evolution = evolution::Evolution {
+                context,
+                recordings: &recordings,
+                scenario: &scenario,
+                spec: &spec,
+            };
+            evolution.run(&wanted, &mut tables, &bar)?;
+        }
     }
     bar.finish_and_clear();
     tables.finish(context)
@@ -82,10 +105,8 @@ struct Tables<'a> {
 
 impl Tables<'_> {
     fn append(&mut self, time: f64, result: &TimeDensity) -> Result<()> {
+        self.append_moments(time, result)?;
         let name = &self.recordings.quantities()[result.quantity].name;
-        if let Some(moments) = &mut self.moments {
-            moments.append(&row(name, time, &result.moments))?;
-        }
         let Some(curve) = &result.curve else {
             self.still.push((result.quantity, time));
             return Ok(());
@@ -95,6 +116,14 @@ impl Tables<'_> {
             .extend((0..curve.nodes.count).map(|j| curve.nodes.value(j)));
         self.density
             .append(name, time, &self.node, &curve.density, &curve.cumulative)
+    }
+
+    fn append_moments(&mut self, time: f64, result: &TimeDensity) -> Result<()> {
+        let name = &self.recordings.quantities()[result.quantity].name;
+        match &mut self.moments {
+            Some(moments) => moments.append(&row(name, time, &result.moments)),
+            None => Ok(()),
+        }
     }
 
     fn finish(self, context: &Context) -> Result<()> {
@@ -117,6 +146,15 @@ impl Tables<'_> {
             moments.finish()?;
         }
         self.density.finish()
+    }
+}
+
+impl From<cli::DensityMethod> for MethodKind {
+    fn from(method: cli::DensityMethod) -> Self {
+        match method {
+            cli::DensityMethod::DirectIntegral => MethodKind::DirectIntegral,
+            cli::DensityMethod::DensityEvolution => MethodKind::DensityEvolution,
+        }
     }
 }
 

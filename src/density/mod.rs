@@ -13,10 +13,13 @@
 //! Up to [`EXACT_POINTS`] points the sum runs over the points themselves; more are first shared
 //! among bins a sixth of σ wide (linear binning, whose variance is taken off the kernel's), so that
 //! memory does not grow with the number of points.
+//!
+//! [`evolution`] is another method for the same densities, to compare with.
 
 mod bins;
 mod cells;
 mod estimate;
+pub mod evolution;
 mod kernel;
 mod smoothing;
 mod statistics;

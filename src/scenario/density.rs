@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::evolution::{EvolutionSpec, MethodKind};
 use super::{Scenario, Table};
 use crate::BadInput;
 
@@ -10,6 +11,9 @@ use crate::BadInput;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DensitySpec {
+    /// How densities are made of the responses.
+    #[serde(default)]
+    pub method: MethodKind,
     /// Smoothing width of the normal density that replaces each Dirac function.
     #[serde(default)]
     pub smoothing: SmoothingSpec,
@@ -23,15 +27,20 @@ pub struct DensitySpec {
     /// Names of the quantities; by default all that are in the recording.
     #[schemars(length(min = 1), extend("uniqueItems" = true))]
     pub quantities: Option<Vec<String>>,
+    /// What `method = "density-evolution"` takes.
+    #[serde(default)]
+    pub evolution: EvolutionSpec,
 }
 
 impl Default for DensitySpec {
     fn default() -> Self {
         DensitySpec {
+            method: MethodKind::default(),
             smoothing: SmoothingSpec::default(),
             points_per_time: default_points_per_time(),
             grid: GridKind::default(),
             quantities: None,
+            evolution: EvolutionSpec::default(),
         }
     }
 }
@@ -92,7 +101,7 @@ fn default_factor() -> f64 {
 impl Table for DensitySpec {
     const NAME: &'static str = "density";
 
-    fn check(&self, _: &Scenario) -> Result<(), BadInput> {
-        Ok(())
+    fn check(&self, scenario: &Scenario) -> Result<(), BadInput> {
+        self.evolution.check(scenario)
     }
 }

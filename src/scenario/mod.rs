@@ -20,6 +20,7 @@ mod bridge;
 mod build;
 mod check;
 mod density;
+mod evolution;
 mod irregularity;
 mod overrides;
 mod place;
@@ -45,6 +46,7 @@ use crate::{BadInput, Error, Result};
 
 pub use bridge::{BridgeSpec, SectionSpec};
 pub use density::{DensitySpec, FactorSpec, FixedSpec, GridKind, SmoothingSpec};
+pub use evolution::{AbsorbingSpec, EvolutionSpec, MethodKind, VelocityKind};
 pub use irregularity::{
     DeterministicSpec, FieldKind, FilterForm, IrregularitySpec, ProfileSpec, SecondOrderFilterSpec,
     Sided, SineSpec, SpectrumSpec, SpectrumTableSpec, WavenumberSpec, WavenumberUnit,

@@ -8,6 +8,7 @@ mod bad_scenarios;
 mod chain;
 mod command_line;
 mod determinism;
+mod evolution;
 mod foreign;
 mod growth;
 mod harness;

@@ -214,7 +214,7 @@ const MOMENTS: &[Column] = &[
     number(
         "smoothing_width",
         Unit::Quantity,
-        "standard deviation of the smoothing kernel",
+        "standard deviation of the smoothing kernel; by density evolution that of one point's probability, smoothed by the mesh",
     ),
     number(
         "effective_count",

@@ -78,10 +78,17 @@ precision = "f32"
 compression = "zstd"
 
 [density]
+method = "density-evolution"
 smoothing = { rule = "fixed", width = 1e-4 }
 points_per_time = 16
 grid = "common"
 quantities = ["bridge/quarter/stress"]
+
+[density.evolution]
+nodes = 400
+courant = 1
+velocity = "differentiated"
+absorbing = [{ quantity = "bridge/quarter/stress", kind = "absolute", threshold = 1e7 }]
 
 [reliability]
 smoothing = { rule = "factor" }

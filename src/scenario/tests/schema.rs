@@ -97,6 +97,8 @@ fn every_key_is_described_and_every_number_has_its_unit() {
     assert!(all.len() > 60);
     let without_unit = [
         ".bridge.damping_ratio",
+        ".density.evolution.absorbing.threshold",
+        ".density.evolution.courant",
         ".density.smoothing.factor",
         ".density.smoothing.width",
         ".irregularity.deterministic.scale",
@@ -161,11 +163,14 @@ fn every_choice_is_one_that_serde_knows() {
                 ".random.distribution.extreme" => read::<ExtremeKind>(json),
                 ".random.distribution.rows" => read::<RowsKind>(json),
                 ".correlation.of" => read::<CorrelationKind>(json),
+                ".density.method" => read::<MethodKind>(json),
+                ".density.evolution.velocity" => read::<VelocityKind>(json),
+                ".density.evolution.absorbing.kind" => read::<LimitKind>(json),
                 ".density.grid" => read::<GridKind>(json),
                 ".reliability.limit.kind" => read::<LimitKind>(json),
                 other => panic!("{other} is not tested here"),
             }
         }
     }
-    assert_eq!(count, 38);
+    assert_eq!(count, 45);
 }
