@@ -16,16 +16,14 @@
 
 mod bins;
 mod cells;
-mod control_variate;
+pub mod control_variate;
 mod estimate;
 mod kernel;
 mod smoothing;
 mod statistics;
 
 pub use bins::Bins;
-pub use control_variate::{
-    ControlVariate, ControlVariateError, Controlled, Exceedance, Options as ControlVariateOptions,
-};
+pub use control_variate::{ControlVariate, ControlVariateError, Controlled, Exceedance};
 pub use estimate::{EXACT_POINTS, Grid, Options, TimeDensity, estimate};
 pub use kernel::{Curve, Nodes, smooth};
 pub use smoothing::{Smoothing, Spread};

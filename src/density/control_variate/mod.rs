@@ -7,12 +7,20 @@
 //! (a fourth-order kernel on the difference to the quadratic part). The points correct it:
 //!
 //! ```text
-//! p = max(0, p_ĝ ∗ φ_e + Σ P_q [K_h(y − g_q) − (K_h ∗ φ_e)(y − ĝ_q)]),    renormalised,
+//! p = max(0, p_ĝ ∗ φ_e + c Σ P_q [K_h(y − g_q) − (K_h ∗ φ_e)(y − ĝ_q)]),    renormalised,
 //! ```
 //!
 //! ĝ_q predicted without point q, φ_e the normal density with the variance that the regression leaves,
-//! K_h a kernel of fourth order. The first two terms alone would be biased, the last two alone noisy;
-//! the noise that is left is that of the residuals. The width,
+//! K_h a kernel of fourth order. The first term alone would be biased, a sum over the points alone
+//! noisy; the noise that is left is that of the residuals. The correction is shrunk by
+//!
+//! ```text
+//! c = max(0, 1 − V / S),
+//! ```
+//!
+//! S its own square integrated, V what independent residuals would give (W. James, C. Stein, Proc. 4th
+//! Berkeley Symp. 1 (1961) 361-379): where the surrogate is right, nothing but noise is left to correct.
+//! The width,
 //!
 //! ```text
 //! h = min(2 s (ρ/N)^{1/9}, 0.6 s),    ρ the residual: the share of the variance not predicted,
@@ -25,8 +33,10 @@
 //! Control variates: J. M. Hammersley, D. C. Handscomb, Monte Carlo Methods (1964), ch. 5.
 //!
 //! A [`ControlVariate`] holds what all times share: for N points and p features 8 N (p + 64) bytes
-//! (1.6 MB for 984 points) and the sample (4.7 MB).
+//! (1.6 MB for 984 points) and the sample (2.4 MB).
 
+mod check;
+mod curve;
 mod features;
 mod line;
 mod regression;
@@ -34,6 +44,9 @@ mod sample;
 mod surrogate;
 
 use super::{Curve, Nodes, PowerSums, Smoothing, Weighted, smooth};
+pub use check::ControlVariateError;
+use check::check;
+use curve::{Standard, above, curve};
 use features::Features;
 use line::{Line, Transforms, fourth_order, gaussian, split};
 use regression::{Basis, Fit};
@@ -48,8 +61,8 @@ pub const MOST_POINTS: usize = 131_072;
 /// A residual above which there is no control.
 pub const LARGEST_RESIDUAL: f64 = 0.5;
 
-/// 2^16 points.
-const LOG_SAMPLE: u32 = 16;
+/// 2^15 points.
+const LOG_SAMPLE: u32 = 15;
 /// Widths in standard deviations: of the kernel on the exact part, which bounds what the nodes must
 /// resolve (its error in L1 is 5e-6 for a normal density), and of the kernel on the sample.
 const EXACT_WIDTH: f64 = 0.06;
@@ -80,25 +93,6 @@ impl Default for Options {
             cubic: 5,
         }
     }
-}
-
-/// Points that bear no regression.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum ControlVariateError {
-    #[error("{variables} variables and {probabilities} probabilities for {points} points")]
-    Shape {
-        points: usize,
-        variables: usize,
-        probabilities: usize,
-    },
-    #[error("a control variate needs at least {LEAST_POINTS} points, found {points}")]
-    TooFewPoints { points: usize },
-    #[error("a control variate takes at most {MOST_POINTS} points, found {points}")]
-    TooManyPoints { points: usize },
-    #[error("variable {variable} of point {point} is not finite")]
-    Variable { point: usize, variable: usize },
-    #[error("the probability of point {point} is {found}")]
-    Probability { point: usize, found: f64 },
 }
 
 /// What the regressions of all times share.
@@ -143,13 +137,6 @@ enum Correction {
     FourthOrder,
     /// Normal, 1.06 s N^(−1/5): calmer in the tails.
     Gaussian,
-}
-
-/// A response in units of its own deviation about its mean.
-struct Standard {
-    mean: f64,
-    deviation: f64,
-    values: Vec<f64>,
 }
 
 impl ControlVariate {
@@ -273,23 +260,37 @@ impl ControlVariate {
             higher.map(|(quadratic, whole)| self.sample_transform(&line, &quadratic, &whole));
         let exact_width = EXACT_WIDTH.max(2.0 * line.spacing);
         let characteristic = surrogate.characteristic();
-        let transform: Vec<Complex64> = (0..=line.count / 2)
-            .map(|k| {
-                let u = line.frequency(k);
-                let shared = line.shared(u);
-                let mut known = characteristic.at(u, line.start) * fourth_order(u, exact_width);
-                if let Some(sample) = &sample {
-                    let normal = (-0.5 * u * u * surrogate.spare).exp();
-                    known += sample[k] * (fourth_order(u, SAMPLE_WIDTH) * normal / shared);
-                }
-                let residual = (-0.5 * u * u * fit.mean_square).exp();
-                let kernel = match correction {
-                    Correction::FourthOrder => fourth_order(u, width),
-                    Correction::Gaussian => gaussian(u, width),
-                };
-                let (simulated, predicted) = split(&points, k);
-                known * residual + (simulated - predicted * residual) * (kernel / shared)
-            })
+        let mut known = Vec::with_capacity(line.count / 2 + 1);
+        let mut change = Vec::with_capacity(line.count / 2 + 1);
+        let (mut energy, mut noise) = (0.0, 0.0);
+        for k in 0..=line.count / 2 {
+            let u = line.frequency(k);
+            let shared = line.shared(u);
+            let smooth = |variance: f64| (-0.5 * u * u * variance).exp();
+            let mut surrogate_part =
+                characteristic.at(u, line.start) * fourth_order(u, exact_width);
+            if let Some(sample) = &sample {
+                let factor = fourth_order(u, SAMPLE_WIDTH) * smooth(surrogate.spare) / shared;
+                surrogate_part += sample[k] * factor;
+            }
+            let kernel = match correction {
+                Correction::FourthOrder => fourth_order(u, width),
+                Correction::Gaussian => gaussian(u, width),
+            };
+            let residual = smooth(fit.mean_square);
+            let (simulated, predicted) = split(&points, k);
+            let difference = (simulated - predicted * residual) * (kernel / shared);
+            let scatter = 1.0 + residual * residual - 2.0 * residual * smooth(fit.left_out);
+            energy += difference.norm_sqr();
+            noise += kernel * kernel * scatter / self.effective_count;
+            known.push(surrogate_part * residual);
+            change.push(difference);
+        }
+        let share = (1.0 - noise / energy).max(0.0);
+        let transform: Vec<Complex64> = known
+            .iter()
+            .zip(&change)
+            .map(|(known, change)| known + change * share)
             .collect();
         let density = self.transforms.density(&line, &transform);
         Controlled {
@@ -349,39 +350,6 @@ impl ControlVariate {
     }
 }
 
-fn check(variables: &[f64], points: usize, probability: &[f64]) -> Result<(), ControlVariateError> {
-    if points < LEAST_POINTS {
-        return Err(ControlVariateError::TooFewPoints { points });
-    }
-    if points > MOST_POINTS {
-        return Err(ControlVariateError::TooManyPoints { points });
-    }
-    if probability.len() != points || !variables.len().is_multiple_of(points) {
-        return Err(ControlVariateError::Shape {
-            points,
-            variables: variables.len(),
-            probabilities: probability.len(),
-        });
-    }
-    if let Some(point) = probability
-        .iter()
-        .position(|p| !(*p >= 0.0 && p.is_finite()))
-    {
-        return Err(ControlVariateError::Probability {
-            point,
-            found: probability[point],
-        });
-    }
-    let count = variables.len() / points;
-    match variables.iter().position(|x| !x.is_finite()) {
-        Some(k) => Err(ControlVariateError::Variable {
-            point: k / count,
-            variable: k % count,
-        }),
-        None => Ok(()),
-    }
-}
-
 /// Nodes over the points, their predictions, the surrogate, and the kernels' reach beyond.
 fn line(
     standard: &Standard,
@@ -410,54 +378,6 @@ fn extent<'a>(values: impl Iterator<Item = &'a f64>) -> (f64, f64) {
     values.fold(start, |(least, largest), y| {
         (least.min(*y), largest.max(*y))
     })
-}
-
-/// The density without its negative parts, renormalised, with its integral, in the response's unit.
-fn curve(standard: &Standard, line: &Line, mut density: Vec<f64>) -> Curve {
-    density.iter_mut().for_each(|p| *p = p.max(0.0));
-    let last = density.len() - 1;
-    let mut cumulative = Vec::with_capacity(density.len());
-    let mut sum = 0.0;
-    cumulative.push(0.0);
-    for j in 0..last {
-        // The integral of the cubic through the four nearest nodes.
-        let outer = density[j.saturating_sub(1)] + density[(j + 2).min(last)];
-        let area = (13.0 * (density[j] + density[j + 1]) - outer) * line.spacing / 24.0;
-        sum += area.max(0.0);
-        cumulative.push(sum);
-    }
-    cumulative.iter_mut().for_each(|c| *c /= sum);
-    let scale = 1.0 / (sum * standard.deviation);
-    density.iter_mut().for_each(|p| *p *= scale);
-    Curve {
-        nodes: Nodes {
-            start: standard.mean + standard.deviation * line.start,
-            spacing: standard.deviation * line.spacing,
-            count: line.count,
-        },
-        density,
-        cumulative,
-    }
-}
-
-/// 1 − F at a threshold: summed from above, so that small ones keep their digits; within a cell the
-/// density is linear.
-fn above(curve: &Curve, threshold: f64) -> f64 {
-    let nodes = &curve.nodes;
-    let place = (threshold - nodes.start) / nodes.spacing;
-    if place.is_nan() || place >= (nodes.count - 1) as f64 {
-        return 0.0;
-    }
-    let cell = |j: usize| 0.5 * (curve.density[j] + curve.density[j + 1]);
-    let total: f64 = (0..nodes.count - 1).rev().map(cell).sum();
-    if place <= 0.0 {
-        return 1.0;
-    }
-    let (j, s) = (place as usize, place.fract());
-    let beyond: f64 = (j + 1..nodes.count - 1).rev().map(cell).sum();
-    let (left, right) = (curve.density[j], curve.density[j + 1]);
-    let at = left + s * (right - left);
-    ((beyond + 0.5 * (1.0 - s) * (at + right)) / total).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]

@@ -122,10 +122,9 @@ fn what_the_features_miss_is_a_normal_residual() {
         let points = Points::monte_carlo(count, 164, 5);
         let (l1, _, result) = compare(&points, g, density);
         assert!((0.5e-3..2e-3).contains(&result.residual));
-        // The mean's error is √(ρ/N), its share in L1 √(2/π) of it; three times that, and as much
-        // again for the width of the distribution and the correction's noise.
+        // The mean's error is √(ρ/N), its share in L1 √(2/π) of it; three times that.
         let noise = (1e-3 / count as f64).sqrt();
-        assert!(l1 < 6.0 * noise, "{count}: {l1:e} {noise:e}");
+        assert!(l1 < 2.5 * noise, "{count}: {l1:e} {noise:e}");
     }
 }
 
@@ -240,7 +239,7 @@ fn few_points_are_not_overfitted() {
         controlled / 8.0,
         plain / 8.0
     );
-    assert!(controlled < 0.9 * plain);
+    assert!(controlled < 0.7 * plain);
 }
 
 #[test]
