@@ -225,8 +225,8 @@ impl Surrogate {
             let mut sum = [self.constant; WIDE];
             for i in 0..n {
                 let mut inner = [self.linear[i]; WIDE];
-                for j in i..n {
-                    add_product(&mut inner, self.quadratic[i][j], &x[j]);
+                for (c, x) in self.quadratic[i][i..n].iter().zip(&x[i..n]) {
+                    add_product(&mut inner, *c, x);
                 }
                 add_products(&mut sum, &inner, &x[i]);
             }
@@ -278,8 +278,12 @@ impl Higher {
             let mut outer = [self.linear[i]; WIDE];
             for j in i..self.cubic {
                 let mut inner = [0.0; WIDE];
-                for k in j..self.cubic {
-                    add_product(&mut inner, self.terms[i][j][k], &x[k]);
+                let variables = j..self.cubic;
+                for (c, x) in self.terms[i][j][variables.clone()]
+                    .iter()
+                    .zip(&x[variables])
+                {
+                    add_product(&mut inner, *c, x);
                 }
                 add_products(&mut outer, &inner, &x[j]);
             }

@@ -197,8 +197,8 @@ fn a_lognormal_response() {
 #[test]
 fn a_kinked_response() {
     // y = b x₂ + max(x₁, 0) with b = 1/2.
-    let b = 0.5;
-    let s = (1.0 + b * b) as f64;
+    let b = 0.5f64;
+    let s = 1.0 + b * b;
     let exact = |y: f64| {
         let sum = density(y / s.sqrt()) / s.sqrt();
         0.5 * density(y / b) / b + sum * cumulative(y / (b * s.sqrt()))
