@@ -219,6 +219,25 @@ fn a_kinked_response() {
 }
 
 #[test]
+fn a_response_between_two_states() {
+    // y = tanh(c x₁) + b x₂: two humps that no cubic follows.
+    let b = 0.2;
+    for c in [1.0, 3.0, 10.0] {
+        let exact = |y: f64| {
+            let h = 0.02;
+            let terms = (-250..=250).map(|k| {
+                let x = f64::from(k) * h;
+                h * density(x) * density((y - (c * x).tanh()) / b) / b
+            });
+            terms.sum::<f64>()
+        };
+        let g = |x: &[f64]| (c * x[0]).tanh() + b * x[1];
+        let (l1, silverman, _) = compare(&Points::monte_carlo(984, 12, 8), g, exact);
+        assert!(l1 < 0.75 * silverman, "{c}: {l1:e} {silverman:e}");
+    }
+}
+
+#[test]
 fn few_points_are_not_overfitted() {
     let (mut controlled, mut plain) = (0.0, 0.0);
     for seed in 0..8 {
