@@ -13,6 +13,9 @@
 //! Up to [`EXACT_POINTS`] points the sum runs over the points themselves; more are first shared
 //! among bins a sixth of σ wide (linear binning, whose variance is taken off the kernel's), so that
 //! memory does not grow with the number of points.
+//!
+//! Where the points' variables are known, [`control_variate`] does better: a regression on them, whose
+//! own density is known, takes the place of most of the sum.
 
 mod bins;
 mod cells;
