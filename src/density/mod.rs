@@ -14,10 +14,14 @@
 //! among bins a sixth of σ wide (linear binning, whose variance is taken off the kernel's), so that
 //! memory does not grow with the number of points.
 //!
+//! Where the points' variables are known, [`control_variate`] does better: a regression on them, whose
+//! own density is known, takes the place of most of the sum.
+//!
 //! [`evolution`] is another method for the same densities, to compare with.
 
 mod bins;
 mod cells;
+pub mod control_variate;
 mod estimate;
 pub mod evolution;
 mod kernel;
@@ -25,6 +29,7 @@ mod smoothing;
 mod statistics;
 
 pub use bins::Bins;
+pub use control_variate::{ControlVariate, ControlVariateError, Controlled, Exceedance};
 pub use estimate::{EXACT_POINTS, Grid, Options, TimeDensity, estimate};
 pub use kernel::{Curve, Nodes, smooth};
 pub use smoothing::{Smoothing, Spread};
