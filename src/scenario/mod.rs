@@ -20,6 +20,7 @@ mod bridge;
 mod build;
 mod check;
 mod density;
+mod exact;
 mod irregularity;
 mod overrides;
 mod place;
@@ -43,6 +44,10 @@ use crate::{BadInput, Error, Result};
 
 pub use bridge::{BridgeSpec, SectionSpec};
 pub use density::{DensitySpec, FactorSpec, FixedSpec, GridKind, SmoothingSpec};
+pub use exact::{
+    AmplitudeSpec, CaseSpec, DuffingSpec, ExactSpec, FreeVibrationSpec, TimesSpec,
+    UniformFrequencySpec,
+};
 pub use irregularity::{
     DeterministicSpec, FieldKind, FilterForm, IrregularitySpec, ProfileSpec, SecondOrderFilterSpec,
     Sided, SineSpec, SpectrumSpec, SpectrumTableSpec, WavenumberSpec, WavenumberUnit,
@@ -190,6 +195,11 @@ impl Scenario {
         self.required()
     }
 
+    /// The table `[exact]`.
+    pub fn exact(&self) -> Result<ExactSpec> {
+        self.required()
+    }
+
     /// Checks every table that is there, and the conditions between them.
     ///
     /// # Errors
@@ -204,6 +214,7 @@ impl Scenario {
             simulation: self.optional()?,
             density: self.optional()?,
             reliability: self.optional()?,
+            exact: self.optional()?,
         };
         if let (Some(points), Some(irregularity)) = (&all.points, &all.irregularity) {
             self.check_truncation(points, irregularity)?;

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    BridgeSpec, DensitySpec, IrregularitySpec, PointsSpec, ReliabilitySpec, SimulationSpec,
-    VehicleSpec,
+    BridgeSpec, DensitySpec, ExactSpec, IrregularitySpec, PointsSpec, ReliabilitySpec,
+    SimulationSpec, VehicleSpec,
 };
 
 /// A whole scenario: one table a stage. Every value is in SI units.
@@ -34,6 +34,8 @@ pub struct ScenarioSpec {
     pub density: Option<DensitySpec>,
     /// First passage of limits.
     pub reliability: Option<ReliabilitySpec>,
+    /// A system whose density is known, to compare estimates with.
+    pub exact: Option<ExactSpec>,
 }
 
 static SCHEMA: LazyLock<Value> = LazyLock::new(generate);

@@ -57,6 +57,7 @@ fn is_tag(key: &str) -> bool {
         ".irregularity.spectrum.kind",
         ".irregularity.deterministic.kind",
         ".density.smoothing.rule",
+        ".exact.case.kind",
         ".reliability.smoothing.rule",
     ];
     tags.contains(&key)
@@ -97,6 +98,7 @@ fn every_key_is_described_and_every_number_has_its_unit() {
         ".bridge.damping_ratio",
         ".density.smoothing.factor",
         ".density.smoothing.width",
+        ".exact.case.damping_ratio",
         ".irregularity.deterministic.scale",
         ".reliability.confidence",
         ".reliability.limit.threshold",
