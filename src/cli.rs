@@ -41,6 +41,10 @@ pub enum Command {
     Density(Density),
     /// First-passage reliability of every limit of the scenario (reliability.parquet)
     Reliability(Reliability),
+    /// Distances between two tables of densities, or between one and an exact one
+    Compare(Compare),
+    /// Write the exact density of a system that has one (density.parquet)
+    Exact(Exact),
     /// Draw a figure from any of the files (SVG or PNG)
     Plot(Plot),
     /// Frequencies, largest stable step, cost and sizes of a scenario, before the work
@@ -154,6 +158,44 @@ pub enum DensityMethod {
     DensityEvolution,
 }
 
+#[derive(Debug, Args)]
+pub struct Compare {
+    /// A table of densities
+    #[arg(value_name = "FIRST.parquet")]
+    pub first: PathBuf,
+    /// The table that it is compared with; errors are the first less this one
+    #[arg(value_name = "SECOND.parquet")]
+    pub second: PathBuf,
+    /// Also write all distances as a table; an existing one is replaced when the new one is whole
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Refuse to replace an existing output
+    #[arg(long, requires = "output")]
+    pub no_clobber: bool,
+    /// Quantiles whose errors are wanted, separated by commas
+    #[arg(
+        long = "quantile",
+        value_name = "P1,P2,...",
+        value_delimiter = ',',
+        default_value = "0.01,0.5,0.99"
+    )]
+    pub quantiles: Vec<f64>,
+    /// Only these times (s), separated by commas [default: all that both tables have]
+    #[arg(long, value_name = "T1,T2,...", value_delimiter = ',')]
+    pub times: Vec<f64>,
+    /// Print a line for each time instead of a summary
+    #[arg(long)]
+    pub all: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct Exact {
+    #[command(flatten)]
+    pub scenario: ScenarioArgs,
+    #[command(flatten)]
+    pub output: OutputArgs,
+}
+
 /// The figures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Figure {
@@ -171,6 +213,8 @@ pub enum Figure {
     Slices,
     /// The probability of failure over time (reliability)
     FailureProbability,
+    /// The distances between two densities over time (comparison)
+    Distances,
 }
 
 /// What a density's value axis shows.
@@ -227,6 +271,7 @@ pub enum SchemaOf {
     Density,
     Moments,
     Reliability,
+    Comparison,
 }
 
 #[derive(Debug, Args)]

@@ -6,10 +6,11 @@
 //! scenario -> probability (points) -> irregularity (a profile a point) -> points file
 //! points file -> ensemble (system + integrate, many points in lockstep) -> recording
 //! recording -> density, reliability -> tables -> plot
+//! two tables of densities (one may be exact) -> comparison -> table -> plot
 //! ```
 //!
 //! Stages meet in files only ([`files`]); the domain ([`probability`], [`irregularity`], [`system`],
-//! [`integrate`], [`ensemble`], [`density`], [`reliability`]) opens none.
+//! [`integrate`], [`ensemble`], [`density`], [`reliability`], [`exact`], [`comparison`]) opens none.
 //!
 //! # Conventions
 //!
@@ -27,9 +28,11 @@
 //! | y₁, y₂, m₁, m₂, k₁, c₁, k₂ | body and wheel, their masses, suspension, tyre |
 //! | F = W + P | contact force, weight, dynamic part |
 
+pub mod comparison;
 pub mod density;
 pub mod ensemble;
 pub mod error;
+pub mod exact;
 pub mod files;
 pub mod integrate;
 pub mod interrupt;

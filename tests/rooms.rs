@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const DOMAIN: [&str; 8] = [
+const DOMAIN: [&str; 10] = [
     "probability",
     "irregularity",
     "system",
@@ -13,6 +13,8 @@ const DOMAIN: [&str; 8] = [
     "density",
     "reliability",
     "response",
+    "exact",
+    "comparison",
 ];
 const OUTSIDE: [&str; 5] = ["scenario", "files", "plot", "commands", "cli"];
 const FORMATS: [&str; 4] = ["arrow", "parquet", "mcap", "prost"];

@@ -4,7 +4,7 @@ use crate::Result;
 use crate::cli;
 use crate::files::points::PointsReader;
 use crate::files::recording::{Axis, Recordings};
-use crate::files::tables::{Units, read_density, read_moments, read_reliability};
+use crate::files::tables::{Units, read_comparison, read_density, read_moments, read_reliability};
 use crate::files::{Kind, Provenance, identify};
 use crate::response::effective_count;
 use std::fmt::Write;
@@ -20,6 +20,7 @@ pub(super) fn run(args: &cli::Inspect) -> Result<()> {
         Kind::Density | Kind::Extremes => density(path, &mut text)?,
         Kind::Moments => moments(path, &mut text)?,
         Kind::Reliability => reliability(path, &mut text)?,
+        Kind::Comparison => comparison(path, &mut text)?,
     }
     super::print(&text)
 }
@@ -269,6 +270,36 @@ fn reliability(path: &Path, text: &mut String) -> Result<()> {
                     row.upper
                 );
             }
+        },
+    );
+    Ok(())
+}
+
+fn comparison(path: &Path, text: &mut String) -> Result<()> {
+    let table = read_comparison(path)?;
+    stamp(path, Kind::Comparison, table.provenance.as_ref(), text);
+    groups(
+        &table.rows,
+        |r| r.quantity.clone(),
+        |name, rows| {
+            let (mut times, mut l1, mut deviation) = (Span::NONE, Span::NONE, Span::NONE);
+            for row in rows {
+                times.add(&[row.time]);
+                l1.add(&[row.l1]);
+                deviation.add(&[row.std_error / row.std]);
+            }
+            let unit = unit(&table.units, name);
+            line!(
+                text,
+                "  {name} [{unit}] {} times from {} to {} s",
+                rows.len(),
+                times.0,
+                times.1
+            );
+            line!(
+                text,
+                "    L1 distances {l1}, relative errors of the standard deviation {deviation}"
+            );
         },
     );
     Ok(())

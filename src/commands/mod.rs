@@ -1,8 +1,10 @@
 //! One file a command: it reads files, calls the library, writes files.
 
 mod check;
+mod compare;
 mod completions;
 mod density;
+mod exact;
 mod excite;
 mod inspect;
 mod model;
@@ -28,6 +30,8 @@ pub fn run(cli: Cli) -> Result<()> {
         Command::Simulate(args) => simulate::run(&context, &args),
         Command::Density(args) => density::run(&context, &args),
         Command::Reliability(args) => reliability::run(&context, &args),
+        Command::Compare(args) => compare::run(&context, &args),
+        Command::Exact(args) => exact::run(&context, &args),
         Command::Plot(args) => plot::run(&context, &args),
         Command::Check(args) => check::run(&args),
         Command::Inspect(args) => inspect::run(&args),

@@ -12,6 +12,7 @@ pub(super) fn run(args: &cli::Schema) -> Result<()> {
         SchemaOf::Recording => schemas::document(Kind::Recording).to_owned(),
         SchemaOf::Density => schemas::document(Kind::Density).to_owned(),
         SchemaOf::Moments => schemas::document(Kind::Moments).to_owned(),
+        SchemaOf::Comparison => schemas::document(Kind::Comparison).to_owned(),
         SchemaOf::Reliability => schemas::document(Kind::Reliability).to_owned(),
     };
     super::print(&text)

@@ -11,7 +11,8 @@ use std::path::Path;
 const MCAP_MAGIC: &[u8] = b"\x89MCAP0\r\n";
 
 /// Columns that only this kind of table has, for files of other programs.
-const TELLTALES: [(&str, Kind); 4] = [
+const TELLTALES: [(&str, Kind); 5] = [
+    ("hellinger", Kind::Comparison),
     ("reliability", Kind::Reliability),
     ("density", Kind::Density),
     ("mean", Kind::Moments),

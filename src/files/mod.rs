@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | `points.parquet` | representative points and their irregularity | [`points::PointsWriter`] | [`points::PointsReader`] |
 //! | `responses.mcap` | a recording of responses | [`recording::RecordingWriter`] | [`recording::Recordings`] |
-//! | `density.parquet`, `moments.parquet`, `reliability.parquet`, `extremes.parquet` | result tables | [`tables`] | [`tables`] |
+//! | `density.parquet`, `moments.parquet`, `reliability.parquet`, `extremes.parquet`, `comparison.parquet` | result tables | [`tables`] | [`tables`] |
 //! | CSV or Parquet of the user | two columns of numbers | | [`tabulated::read_columns`] |
 //!
 //! The contract for other programs lies in `schemas/`. Every output goes through

@@ -26,17 +26,20 @@ pub enum Kind {
     Reliability,
     /// Densities of the extreme values.
     Extremes,
+    /// Distances between two tables of densities.
+    Comparison,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Kind; 6] = [
+    pub const ALL: [Kind; 7] = [
         Kind::Points,
         Kind::Recording,
         Kind::Density,
         Kind::Moments,
         Kind::Reliability,
         Kind::Extremes,
+        Kind::Comparison,
     ];
 
     /// The kind's name in the files.
@@ -48,6 +51,7 @@ impl Kind {
             Kind::Moments => "moments",
             Kind::Reliability => "reliability",
             Kind::Extremes => "extremes",
+            Kind::Comparison => "comparison",
         }
     }
 
@@ -59,7 +63,8 @@ impl Kind {
             | Kind::Density
             | Kind::Moments
             | Kind::Reliability
-            | Kind::Extremes => 1,
+            | Kind::Extremes
+            | Kind::Comparison => 1,
         }
     }
 

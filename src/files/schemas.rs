@@ -12,6 +12,7 @@ pub fn document(kind: Kind) -> &'static str {
         Kind::Moments => include_str!("../../schemas/moments.json"),
         Kind::Reliability => include_str!("../../schemas/reliability.json"),
         Kind::Extremes => include_str!("../../schemas/extremes.json"),
+        Kind::Comparison => include_str!("../../schemas/comparison.json"),
     }
 }
 

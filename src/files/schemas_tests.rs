@@ -10,7 +10,9 @@ use crate::Result;
 use crate::files::output::OutputFile;
 use crate::files::parquet_input::{Input, PANDAS_ATTRS};
 use crate::files::points::{PointsBatch, PointsHeader, PointsWriter};
-use crate::files::tables::{DensityWriter, MomentsWriter, ReliabilityWriter, Table, Units};
+use crate::files::tables::{
+    ComparisonWriter, DensityWriter, MomentsWriter, ReliabilityWriter, Table, Units,
+};
 use crate::files::{Provenance, Weights};
 
 fn json(kind: Kind) -> Value {
@@ -39,6 +41,9 @@ fn write(kind: Kind, path: &Path) -> Result<()> {
         Kind::Density | Kind::Extremes => DensityWriter::create(output, &units, &stamp)?.finish(),
         Kind::Moments => MomentsWriter::create(output, &units, &stamp)?.finish(),
         Kind::Reliability => ReliabilityWriter::create(output, &units, &stamp)?.finish(),
+        Kind::Comparison => {
+            ComparisonWriter::create(output, &[0.01, 0.5, 0.99], &units, &stamp)?.finish()
+        }
         Kind::Points => write_points(output, stamp),
         Kind::Recording => unreachable!("a recording is no table"),
     }
@@ -126,22 +131,16 @@ fn meanings_are_as_documented() {
     for kind in Kind::ALL {
         if let Some(table) = Table::of(kind) {
             let document = json(kind);
+            // After the columns of all tables of the kind there may be more.
+            let documented = |key| texts(&document, "columns", key)[..table.columns.len()].to_vec();
             let column = |of: &dyn Fn(&crate::files::tables::Column) -> &'static str| -> Vec<&str> {
                 table.columns.iter().map(of).collect()
             };
-            assert_eq!(
-                column(&|c| c.meaning),
-                texts(&document, "columns", "meaning"),
-                "{kind:?}"
-            );
-            assert_eq!(
-                column(&|c| c.unit.name()),
-                texts(&document, "columns", "unit"),
-                "{kind:?}"
-            );
+            assert_eq!(column(&|c| c.meaning), documented("meaning"), "{kind:?}");
+            assert_eq!(column(&|c| c.unit.name()), documented("unit"), "{kind:?}");
             assert_eq!(
                 column(&|c| c.column_type.name()),
-                texts(&document, "columns", "type"),
+                documented("type"),
                 "{kind:?}"
             );
         }

@@ -12,6 +12,7 @@
 //! | [`Surface`] | the same as a surface in three dimensions |
 //! | [`Slices`] | the densities at given times |
 //! | [`FailureProbability`] | the probability of failure over time |
+//! | [`DistancesOverTime`] | the distances between two densities over time |
 //!
 //! The spread of a displacement is a hundredth of its travel. Figures of a response over time
 //! therefore show it from its mean where that is needed to see anything ([`ValueAxis`]).
@@ -24,6 +25,7 @@ mod check;
 mod colour;
 mod density;
 mod density_scale;
+mod distances;
 mod failure_probability;
 mod fan;
 mod heat_map;
@@ -49,6 +51,7 @@ mod tests;
 
 pub use density::DensityAtTime;
 pub use density_scale::DensityScale;
+pub use distances::{DistanceCurve, DistancesOverTime};
 pub use failure_probability::{FailureCurve, FailureProbability};
 pub use fan::Fan;
 pub use heat_map::HeatMap;

@@ -40,6 +40,11 @@ pub struct Slices<'a> {
 }
 
 const PICTURE: &str = "plot of the densities";
+/// A density of more than so many times what half of the probability does not exceed has a pole, which would
+/// leave nothing else to see: the axis then ends ...
+const POLE: f64 = 25.0;
+/// ... at so many times that.
+const CUT: f64 = 4.0;
 
 impl Slices<'_> {
     /// Draws them.
@@ -70,11 +75,19 @@ impl Slices<'_> {
             .iter()
             .flat_map(|c| c.density.iter().chain(&c.reference));
         let (_, highest) = range(drawn.map(|point| point.1));
-        let y = Axis::linear(density_label(&self.label, &unit), 0.0, 1.06 * highest);
+        let (_, usual) = range(curves.iter().map(|c| usual(&c.density)));
+        let has_pole = highest > POLE * usual;
+        let remark = has_pole.then(|| "peaks are cut".to_owned());
+        let top = if has_pole {
+            CUT * usual
+        } else {
+            1.06 * highest
+        };
+        let y = Axis::linear(density_label(&self.label, &unit), 0.0, top);
 
         let stroke = |index| Stroke::solid(ordered_colour(index, slices.len()), 2.4);
         let legend = self.legend(&slices, deviates, &unit, stroke);
-        let (mut canvas, room) = page.start(&[], &legend);
+        let (mut canvas, room) = page.start(remark.as_slice(), &legend);
         let frame = Frame::new(
             plot_area(room, left_margin(&y, room.height), RIGHT_MARGIN),
             x,
@@ -122,11 +135,10 @@ impl Slices<'_> {
             densities,
         } = slice.density;
         let shown = |value: f64, p: f64| (unit.factor * (value - origin), p / unit.factor);
-        let density = values
-            .iter()
-            .zip(densities)
-            .map(|(&v, &p)| shown(v, p))
-            .collect();
+        let nodes = values.iter().zip(densities).map(|(&v, &p)| shown(v, p));
+        // A density that ends at an edge falls to zero there.
+        let ends = [values.first(), values.last()].map(|v| v.map(|&v| shown(v, 0.0)));
+        let density = ends[0].into_iter().chain(nodes).chain(ends[1]).collect();
         let points = |of: &dyn Fn(f64) -> f64| -> Vec<(f64, f64)> {
             let value =
                 |i: usize| origin + (x.low + (x.high - x.low) * i as f64 / 400.0) / unit.factor;
@@ -176,6 +188,23 @@ struct Curves {
     reference: Vec<(f64, f64)>,
 }
 
+/// The density that half of the probability does not exceed, of a curve's nodes.
+fn usual(curve: &[(f64, f64)]) -> f64 {
+    let cells = curve.windows(2).map(|pair| {
+        let density = 0.5 * (pair[0].1 + pair[1].1);
+        (density, density * (pair[1].0 - pair[0].0))
+    });
+    let mut cells: Vec<(f64, f64)> = cells.collect();
+    cells.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let wanted = 0.5 * cells.iter().map(|cell| cell.1).sum::<f64>();
+    let mut below = 0.0;
+    let found = cells.iter().find(|cell| {
+        below += cell.1;
+        below >= wanted
+    });
+    found.map_or(f64::INFINITY, |cell| cell.0)
+}
+
 fn normal(slice: &Slice<'_>, value: f64) -> f64 {
     let distance = (value - slice.mean) / slice.standard_deviation;
     (-0.5 * distance * distance).exp() / (slice.standard_deviation * std::f64::consts::TAU.sqrt())
@@ -189,4 +218,22 @@ fn time_text(time: f64) -> String {
         return in_words(time);
     }
     short.replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pole_is_cut_and_a_peak_is_not() {
+        let curve = |density: &dyn Fn(f64) -> f64| -> Vec<(f64, f64)> {
+            let nodes = (1..4000).map(|j| f64::from(j) / 1000.0);
+            nodes.map(|y| (y, density(y))).collect()
+        };
+        let peak = curve(&|y| (-20.0 * (y - 2.0).powi(2)).exp());
+        assert!(POLE * usual(&peak) > 10.0);
+        // Half of ∫ 1/√y from 0 to 4 lies below y = 1.
+        let pole = usual(&curve(&|y| y.powf(-0.5)));
+        assert!((0.95..1.05).contains(&pole), "{pole}");
+    }
 }

@@ -21,6 +21,7 @@ mod build;
 mod check;
 mod density;
 mod evolution;
+mod exact;
 mod irregularity;
 mod overrides;
 mod place;
@@ -47,6 +48,10 @@ use crate::{BadInput, Error, Result};
 pub use bridge::{BridgeSpec, SectionSpec};
 pub use density::{DensitySpec, FactorSpec, FixedSpec, GridKind, SmoothingSpec};
 pub use evolution::{AbsorbingSpec, EvolutionSpec, MethodKind, VelocityKind};
+pub use exact::{
+    AmplitudeSpec, CaseSpec, DuffingSpec, ExactSpec, FreeVibrationSpec, TimesSpec,
+    UniformFrequencySpec,
+};
 pub use irregularity::{
     DeterministicSpec, FieldKind, FilterForm, IrregularitySpec, ProfileSpec, SecondOrderFilterSpec,
     Sided, SineSpec, SpectrumSpec, SpectrumTableSpec, WavenumberSpec, WavenumberUnit,
@@ -200,6 +205,11 @@ impl Scenario {
         self.required()
     }
 
+    /// The table `[exact]`.
+    pub fn exact(&self) -> Result<ExactSpec> {
+        self.required()
+    }
+
     /// Checks every table that is there, and the conditions between them.
     ///
     /// # Errors
@@ -216,6 +226,7 @@ impl Scenario {
             simulation: self.optional()?,
             density: self.optional()?,
             reliability: self.optional()?,
+            exact: self.optional()?,
         };
         if let (Some(points), Some(irregularity)) = (&all.points, &all.irregularity) {
             self.check_truncation(points, irregularity)?;

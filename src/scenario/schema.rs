@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    BridgeSpec, CorrelationSpec, DensitySpec, IrregularitySpec, PointsSpec, RandomSpec,
+    BridgeSpec, CorrelationSpec, DensitySpec, ExactSpec, IrregularitySpec, PointsSpec, RandomSpec,
     ReliabilitySpec, SimulationSpec, VehicleSpec,
 };
 
@@ -38,6 +38,8 @@ pub struct ScenarioSpec {
     pub density: Option<DensitySpec>,
     /// First passage of limits.
     pub reliability: Option<ReliabilitySpec>,
+    /// A system whose density is known, to compare estimates with.
+    pub exact: Option<ExactSpec>,
 }
 
 static SCHEMA: LazyLock<Value> = LazyLock::new(generate);

@@ -99,7 +99,7 @@ fn of_another_kind() {
     );
     folder.refuses(
         "plot moments.parquet -o out.svg",
-        "moments.parquet: expected a points file, a recording, a table of densities, extremes or reliability, found moments",
+        "moments.parquet: expected a points file, a recording, a table of densities, extremes or reliability, a comparison, found moments",
     );
     folder.refuses(
         "plot density.parquet --figure fan -o out.svg",

@@ -7,6 +7,7 @@ mod bad_recordings;
 mod bad_scenarios;
 mod chain;
 mod command_line;
+mod compare;
 mod determinism;
 mod evolution;
 mod foreign;

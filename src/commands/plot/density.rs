@@ -56,12 +56,22 @@ impl Chosen {
                     scenario.density().ok().map(|spec| spec.smoothing)
                 }
             });
-        let remarks: Vec<String> = smoothing.map(smoothing_in_words).into_iter().collect();
+        let remarks: Vec<String> = if self.is_exact() {
+            vec!["exact".to_owned()]
+        } else {
+            smoothing.map(smoothing_in_words).into_iter().collect()
+        };
         page(
             format!("{}: {what}", self.axis().name),
             provenance,
             &remarks,
         )
+    }
+
+    /// Whether the table was made from nothing but its scenario.
+    fn is_exact(&self) -> bool {
+        let provenance = self.table.provenance.as_ref();
+        provenance.is_some_and(|p| p.inputs.is_empty())
     }
 
     /// Whether the table holds extreme values, one density a limit.

@@ -1,5 +1,6 @@
 //! `dpim plot`: figures from any of the files.
 
+mod comparison;
 mod density;
 mod points;
 mod recording;
@@ -31,6 +32,7 @@ pub(super) fn run(context: &Context, args: &cli::Plot) -> Result<()> {
         Figure::HeatMap => density::heat_map(args),
         Figure::Surface => density::surface(args),
         Figure::Slices => density::slices(args),
+        Figure::Distances => comparison::distances(args),
         Figure::FailureProbability => reliability::failure_probability(args),
     }?;
     let bytes = match format {
@@ -79,6 +81,7 @@ fn figures(kind: Kind) -> &'static [Figure] {
         Kind::Density => &[Figure::HeatMap, Figure::Surface, Figure::Slices],
         Kind::Extremes => &[Figure::Slices],
         Kind::Reliability => &[Figure::FailureProbability],
+        Kind::Comparison => &[Figure::Distances],
         Kind::Moments => &[],
     }
 }
@@ -99,7 +102,7 @@ fn figure(args: &cli::Plot, kind: Kind) -> Result<Figure> {
     wanted.ok_or_else(|| {
         let all = known.iter().map(name).collect::<Vec<_>>().join(", ");
         let expected = if all.is_empty() {
-            "a points file, a recording, a table of densities, extremes or reliability".to_owned()
+            "a points file, a recording, a table of densities, extremes or reliability, a comparison".to_owned()
         } else {
             format!("a figure of this kind of file: {all}")
         };

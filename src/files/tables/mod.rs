@@ -1,4 +1,4 @@
-//! The result tables: density, moments, reliability, extremes.
+//! The result tables: density, moments, reliability, extremes, comparison.
 //!
 //! Long tables, sorted, one row a node or a time. Each column's name, type, unit and meaning stand here
 //! once ([`Table`]); the writers write what stands here, and a test compares it with `schemas/`.
@@ -9,11 +9,11 @@ mod rows;
 mod writer;
 
 pub use reader::{
-    DensitySlice, DensityTable, MomentsTable, ReliabilityTable, read_density, read_moments,
-    read_reliability,
+    ComparisonTable, DensitySlice, DensityTable, MomentsTable, ReliabilityTable, read_comparison,
+    read_density, read_moments, read_reliability,
 };
-pub use rows::{MomentsRow, QUANTILES, ReliabilityRow};
-pub use writer::{DensityWriter, MomentsWriter, ReliabilityWriter, Units};
+pub use rows::{ComparisonRow, MomentsRow, QUANTILES, ReliabilityRow};
+pub use writer::{ComparisonWriter, DensityWriter, MomentsWriter, ReliabilityWriter, Units};
 
 use super::Kind;
 
@@ -98,7 +98,8 @@ pub struct Column {
 pub struct Table {
     /// The kind of file.
     pub kind: Kind,
-    /// The columns, in their order: first the texts, then the numbers.
+    /// The columns, in their order: first the texts, then the numbers. A comparison has more after
+    /// them, one for each quantile that was asked for ([`quantile_column`]).
     pub columns: &'static [Column],
 }
 
@@ -109,6 +110,7 @@ impl Table {
             Kind::Density | Kind::Extremes => DENSITY,
             Kind::Moments => MOMENTS,
             Kind::Reliability => RELIABILITY,
+            Kind::Comparison => COMPARISON,
             Kind::Points | Kind::Recording => return None,
         };
         Some(Table { kind, columns })
@@ -125,6 +127,17 @@ impl Table {
             .iter()
             .filter(|column| column.column_type == ColumnType::Number)
     }
+}
+
+/// The name of the column with the error of a quantile, `quantile_0.01_error`.
+pub fn quantile_column(level: f64) -> String {
+    format!("quantile_{level}_error")
+}
+
+/// The quantile whose error is in the column `name`.
+fn quantile_of_column(name: &str) -> Option<f64> {
+    let level = name.strip_prefix("quantile_")?.strip_suffix("_error")?;
+    level.parse().ok()
 }
 
 const fn text(name: &'static str, meaning: &'static str) -> Column {
@@ -247,6 +260,46 @@ const RELIABILITY: &[Column] = &[
         "smoothing_width",
         Unit::Quantity,
         "standard deviation of the smoothing kernel; 0 without one",
+    ),
+];
+
+const COMPARISON: &[Column] = &[
+    text(
+        "quantity",
+        "the quantity, or of two tables of extremes the limit",
+    ),
+    number("time", SECONDS, "time since the start of the run"),
+    number("l1", ONE, "L1 distance of the densities, 0 to 2"),
+    number(
+        "total_variation",
+        ONE,
+        "largest difference of the probabilities of an event: half of l1",
+    ),
+    number(
+        "kolmogorov_smirnov",
+        ONE,
+        "largest difference of the cumulative probabilities",
+    ),
+    number(
+        "wasserstein_1",
+        Unit::Quantity,
+        "area between the cumulative probabilities",
+    ),
+    number("hellinger", ONE, "Hellinger distance, 0 to 1"),
+    number(
+        "mean_error",
+        Unit::Quantity,
+        "mean of the first table less that of the second",
+    ),
+    number(
+        "std_error",
+        Unit::Quantity,
+        "standard deviation of the first table less that of the second",
+    ),
+    number(
+        "std",
+        Unit::Quantity,
+        "standard deviation of the second table",
     ),
 ];
 

@@ -7,9 +7,9 @@ use arrow::array::{ArrayRef, AsArray};
 use arrow::compute::cast;
 use arrow::datatypes::DataType;
 
-use super::rows::{MomentsRow, ReliabilityRow};
+use super::rows::{ComparisonRow, MomentsRow, ReliabilityRow};
 use super::writer::Units;
-use super::{Table, UNITS};
+use super::{Table, UNITS, quantile_of_column};
 use crate::files::parquet_input::{Input, Select};
 use crate::files::{Kind, Provenance};
 use crate::{BadInput, Result};
@@ -62,6 +62,19 @@ pub struct ReliabilityTable {
     pub rows: Vec<ReliabilityRow>,
 }
 
+/// A comparison of two tables of densities.
+#[derive(Debug, Clone)]
+pub struct ComparisonTable {
+    /// The stamp; `None` for a file of another program.
+    pub provenance: Option<Provenance>,
+    /// The unit of each quantity; empty if unknown.
+    pub units: Units,
+    /// The quantiles whose errors the rows have.
+    pub levels: Vec<f64>,
+    /// The rows, in the order of the file.
+    pub rows: Vec<ComparisonRow>,
+}
+
 /// The columns of a file.
 struct Columns {
     place: String,
@@ -69,6 +82,8 @@ struct Columns {
     units: Units,
     texts: Vec<Vec<String>>,
     numbers: Vec<Vec<f64>>,
+    /// Of a comparison: each quantile with its column.
+    quantiles: Vec<(f64, Vec<f64>)>,
 }
 
 /// Reads a table of densities or extremes.
@@ -166,6 +181,30 @@ pub fn read_reliability(path: &Path) -> Result<ReliabilityTable> {
     })
 }
 
+/// Reads a comparison.
+///
+/// # Errors
+/// A file of another kind, a missing column (all are named).
+pub fn read_comparison(path: &Path) -> Result<ComparisonTable> {
+    let mut columns = read(path, &[Kind::Comparison])?;
+    let quantity = columns.texts.remove(0);
+    let row = |(row, quantity)| {
+        let errors = columns.quantiles.iter().map(|(_, column)| column[row]);
+        ComparisonRow::from_numbers(
+            quantity,
+            &numbers_of(&columns.numbers, row),
+            errors.collect(),
+        )
+    };
+    let rows = quantity.into_iter().enumerate().map(row).collect();
+    Ok(ComparisonTable {
+        provenance: columns.provenance,
+        units: columns.units,
+        levels: columns.quantiles.iter().map(|(level, _)| *level).collect(),
+        rows,
+    })
+}
+
 fn numbers_of<const N: usize>(columns: &[Vec<f64>], row: usize) -> [f64; N] {
     std::array::from_fn(|column| columns[column][row])
 }
@@ -202,6 +241,18 @@ fn read(path: &Path, kinds: &[Kind]) -> Result<Columns> {
         .map(|column| texts(&input, index(column)))
         .collect::<Result<_>>()?;
     let numbers = input.numbers(&table.numbers().map(index).collect::<Vec<_>>())?;
+    let quantiles: Vec<(f64, usize)> = match table.kind {
+        Kind::Comparison => quantile_columns(&input),
+        Kind::Density
+        | Kind::Extremes
+        | Kind::Moments
+        | Kind::Reliability
+        | Kind::Points
+        | Kind::Recording => Vec::new(),
+    };
+    let indices: Vec<usize> = quantiles.iter().map(|(_, index)| *index).collect();
+    let levels = quantiles.iter().map(|(level, _)| *level);
+    let quantiles = levels.zip(input.numbers(&indices)?).collect();
     let units = match input.attribute(UNITS) {
         None => Units::new(),
         Some(text) => serde_json::from_str(text).map_err(|e| {
@@ -219,7 +270,16 @@ fn read(path: &Path, kinds: &[Kind]) -> Result<Columns> {
         units,
         texts,
         numbers,
+        quantiles,
     })
+}
+
+/// The columns with errors of quantiles, each with its quantile.
+fn quantile_columns(input: &Input) -> Vec<(f64, usize)> {
+    let fields = input.schema().fields().iter().enumerate();
+    fields
+        .filter_map(|(index, field)| Some((quantile_of_column(field.name())?, index)))
+        .collect()
 }
 
 /// Reads a column of texts.

@@ -124,3 +124,79 @@ impl ReliabilityRow {
         }
     }
 }
+
+/// The distances between two densities of a quantity at a time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComparisonRow {
+    /// The quantity (of two tables of extremes: the limit).
+    pub quantity: String,
+    /// s
+    pub time: f64,
+    /// L1 distance.
+    pub l1: f64,
+    /// Half the L1 distance.
+    pub total_variation: f64,
+    /// Largest difference of the cumulative probabilities.
+    pub kolmogorov_smirnov: f64,
+    /// Area between the cumulative probabilities, in the quantity's unit.
+    pub wasserstein_1: f64,
+    /// Hellinger distance.
+    pub hellinger: f64,
+    /// Mean of the first less that of the second, in the quantity's unit.
+    pub mean_error: f64,
+    /// The same of the standard deviations.
+    pub std_error: f64,
+    /// Standard deviation of the second, in the quantity's unit.
+    pub std: f64,
+    /// Quantiles of the first less those of the second, in the quantity's unit, in the table's order.
+    pub quantile_errors: Vec<f64>,
+}
+
+impl ComparisonRow {
+    pub(super) fn numbers(&self) -> Vec<f64> {
+        let mut numbers = vec![
+            self.time,
+            self.l1,
+            self.total_variation,
+            self.kolmogorov_smirnov,
+            self.wasserstein_1,
+            self.hellinger,
+            self.mean_error,
+            self.std_error,
+            self.std,
+        ];
+        numbers.extend_from_slice(&self.quantile_errors);
+        numbers
+    }
+
+    pub(super) fn from_numbers(
+        quantity: String,
+        numbers: &[f64; 9],
+        quantile_errors: Vec<f64>,
+    ) -> ComparisonRow {
+        let [
+            time,
+            l1,
+            total_variation,
+            kolmogorov_smirnov,
+            wasserstein_1,
+            hellinger,
+            mean_error,
+            std_error,
+            std,
+        ] = *numbers;
+        ComparisonRow {
+            quantity,
+            time,
+            l1,
+            total_variation,
+            kolmogorov_smirnov,
+            wasserstein_1,
+            hellinger,
+            mean_error,
+            std_error,
+            std,
+            quantile_errors,
+        }
+    }
+}

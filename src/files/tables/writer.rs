@@ -14,8 +14,8 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::schema::types::ColumnPath;
 
-use super::rows::{MomentsRow, ReliabilityRow};
-use super::{ColumnType, Table, UNITS};
+use super::rows::{ComparisonRow, MomentsRow, ReliabilityRow};
+use super::{ColumnType, Table, UNITS, Unit, quantile_column};
 use crate::files::attributes::Attributes;
 use crate::files::output::{self, OutputFile};
 use crate::files::{Kind, Provenance};
@@ -74,12 +74,23 @@ impl LongTable {
         units: &Units,
         provenance: &Provenance,
     ) -> Result<LongTable> {
+        LongTable::create_with(output, table, &[], units, provenance)
+    }
+
+    /// With columns of `more` numbers in the quantity's unit after those of the table.
+    fn create_with(
+        output: OutputFile,
+        table: &Table,
+        more: &[String],
+        units: &Units,
+        provenance: &Provenance,
+    ) -> Result<LongTable> {
         assert_eq!(provenance.kind, table.kind, "the stamp is of another kind");
         let path = output.path().to_owned();
         let mut attributes = Attributes::stamped(provenance);
         attributes.json(UNITS, serde_json::json!(units));
-        let schema = Arc::new(schema(table, units, &attributes));
-        let properties = properties(table, &attributes);
+        let schema = Arc::new(schema(table, more, units, &attributes));
+        let properties = properties(table, more, &attributes);
         let writer = ArrowWriter::try_new(output, schema.clone(), Some(properties))
             .map_err(|e| failed(&path, e))?;
         Ok(LongTable {
@@ -87,7 +98,7 @@ impl LongTable {
             path,
             schema,
             texts: table.texts().map(|_| Texts::default()).collect(),
-            numbers: table.numbers().map(|_| Vec::with_capacity(BATCH)).collect(),
+            numbers: vec![Vec::with_capacity(BATCH); table.numbers().count() + more.len()],
         })
     }
 
@@ -138,7 +149,7 @@ fn failed(path: &std::path::Path, error: ParquetError) -> Error {
     output::wrapped_write_error(path, Box::new(error))
 }
 
-fn schema(table: &Table, units: &Units, attributes: &Attributes) -> Schema {
+fn schema(table: &Table, more: &[String], units: &Units, attributes: &Attributes) -> Schema {
     let field = |column: &super::Column| {
         let data_type = match column.column_type {
             ColumnType::Text => {
@@ -149,11 +160,16 @@ fn schema(table: &Table, units: &Units, attributes: &Attributes) -> Schema {
         let unit = HashMap::from([("unit".to_owned(), column.unit.resolve(units))]);
         Field::new(column.name, data_type, false).with_metadata(unit)
     };
-    let fields: Vec<Field> = table.columns.iter().map(field).collect();
+    let further = |name: &String| {
+        let unit = HashMap::from([("unit".to_owned(), Unit::Quantity.resolve(units))]);
+        Field::new(name, DataType::Float64, false).with_metadata(unit)
+    };
+    let fields = table.columns.iter().map(field);
+    let fields: Vec<Field> = fields.chain(more.iter().map(further)).collect();
     Schema::new_with_metadata(fields, attributes.schema_metadata())
 }
 
-fn properties(table: &Table, attributes: &Attributes) -> WriterProperties {
+fn properties(table: &Table, more: &[String], attributes: &Attributes) -> WriterProperties {
     let pairs = attributes
         .pairs()
         .map(|(key, value)| KeyValue::new(key.to_owned(), value))
@@ -162,9 +178,13 @@ fn properties(table: &Table, attributes: &Attributes) -> WriterProperties {
         .set_created_by(concat!("dpim version ", env!("CARGO_PKG_VERSION")).to_owned())
         .set_compression(Compression::ZSTD(ZstdLevel::default()))
         .set_key_value_metadata(Some(pairs));
-    for column in table.columns {
-        let path = ColumnPath::from(column.name);
-        properties = properties.set_column_dictionary_enabled(path, column.repeats);
+    let columns = table
+        .columns
+        .iter()
+        .map(|column| (column.name, column.repeats));
+    for (name, repeats) in columns.chain(more.iter().map(|name| (name.as_str(), false))) {
+        let path = ColumnPath::from(name);
+        properties = properties.set_column_dictionary_enabled(path, repeats);
     }
     properties.build()
 }
@@ -188,9 +208,12 @@ impl DensityWriter {
     ) -> Result<DensityWriter> {
         let table = match provenance.kind {
             Kind::Extremes => table_of(Kind::Extremes),
-            Kind::Density | Kind::Moments | Kind::Reliability | Kind::Points | Kind::Recording => {
-                table_of(Kind::Density)
-            }
+            Kind::Density
+            | Kind::Moments
+            | Kind::Reliability
+            | Kind::Comparison
+            | Kind::Points
+            | Kind::Recording => table_of(Kind::Density),
         };
         LongTable::create(output, &table, units, provenance).map(DensityWriter)
     }
@@ -277,6 +300,41 @@ impl ReliabilityWriter {
     /// Appends a row.
     pub fn append(&mut self, row: &ReliabilityRow) -> Result<()> {
         self.0.push(&[&row.limit, &row.method], &row.numbers())
+    }
+
+    /// Finishes the file and puts it in its place.
+    pub fn finish(self) -> Result<()> {
+        self.0.finish()
+    }
+}
+
+/// Writes a comparison. Dropped before [`finish`](Self::finish) it leaves no file.
+pub struct ComparisonWriter(LongTable);
+
+impl ComparisonWriter {
+    /// Starts a table with a column for the error of each quantile in `levels`.
+    ///
+    /// # Panics
+    /// If the stamp is of another kind.
+    pub fn create(
+        output: OutputFile,
+        levels: &[f64],
+        units: &Units,
+        provenance: &Provenance,
+    ) -> Result<ComparisonWriter> {
+        let quantiles: Vec<String> = levels.iter().map(|level| quantile_column(*level)).collect();
+        let table = table_of(Kind::Comparison);
+        LongTable::create_with(output, &table, &quantiles, units, provenance).map(ComparisonWriter)
+    }
+
+    /// Appends a row.
+    ///
+    /// # Panics
+    /// If it has another number of quantiles.
+    pub fn append(&mut self, row: &ComparisonRow) -> Result<()> {
+        let numbers = row.numbers();
+        assert_eq!(numbers.len(), self.0.numbers.len(), "quantiles of a row");
+        self.0.push(&[&row.quantity], &numbers)
     }
 
     /// Finishes the file and puts it in its place.

@@ -276,6 +276,33 @@ pub(super) fn failure_image(scale: f64) -> Image {
     figure.draw(&page("Probability of failure")).unwrap()
 }
 
+/// Two quantities, an error that changes its sign.
+fn distances_image() -> Image {
+    let times: Vec<f64> = (1..=200).map(|i| 0.01 * f64::from(i)).collect();
+    let values = |size: f64, pace: f64| -> Vec<f64> {
+        let value = |t: &f64| size * (1.2 + (pace * t).sin());
+        times.iter().map(value).collect()
+    };
+    let error: Vec<f64> = times.iter().map(|t| 0.01 * (5.0 * t).sin().abs()).collect();
+    let (l1, hellinger) = (values(0.05, 3.0), values(0.02, 4.0));
+    let curve = |quantity, measure, values| DistanceCurve {
+        quantity,
+        measure,
+        is_error: measure == "error of σ / σ",
+        times: &times,
+        values,
+    };
+    let curves = [
+        curve("Bridge midspan displacement", "L_{1} distance", &l1),
+        curve("Bridge midspan displacement", "Hellinger", &hellinger),
+        curve("Bridge midspan displacement", "error of σ / σ", &error),
+        curve("Vehicle body acceleration", "L_{1} distance", &hellinger),
+        curve("Vehicle body acceleration", "error of σ / σ", &error),
+    ];
+    let figure = DistancesOverTime { curves: &curves };
+    figure.draw(&page("Distances")).unwrap()
+}
+
 /// A name and a picture for every figure and option.
 pub(super) fn gallery() -> Vec<(&'static str, Image)> {
     use DensityScale::{Linear, Logarithmic, SquareRoot};
@@ -341,6 +368,7 @@ pub(super) fn gallery() -> Vec<(&'static str, Image)> {
             slices_image(&acceleration, &[0.803, 1.4], Some(given)),
         ),
         ("slices-many", slices_image(&acceleration, &many, None)),
+        ("distances", distances_image()),
         ("failure", failure_image(0.4)),
         ("failure-rare", failure_image(1e-6)),
         ("failure-none", failure_image(0.0)),

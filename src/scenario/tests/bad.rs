@@ -18,6 +18,7 @@ fn read_all(name: &str, text: &str) -> Result<()> {
     scenario.simulation()?;
     scenario.density()?;
     scenario.reliability()?;
+    scenario.exact()?;
     Ok(())
 }
 

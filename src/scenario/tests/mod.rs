@@ -95,6 +95,12 @@ smoothing = { rule = "factor" }
 confidence = 0.9
 limit = [{ name = "stress", quantity = "bridge/quarter/stress", kind = "lower", threshold = -1e6 }]
 
+[exact]
+quantity = "oscillator/position"
+case = { kind = "free-vibration", frequency = { lower = 4, upper = 5 }, amplitude = { mean = 0.1, standard_deviation = 0.01 } }
+times = { start = 0.5, step = 0.25, end = 1 }
+points_per_time = 500
+
 [[random]]
 key = "bridge.flexural_rigidity"
 distribution = { kind = "normal", mean = 2.6e9, standard_deviation = 1e8 }
@@ -142,9 +148,10 @@ of = "parameters"
 "#;
 
 /// Overrides of `FULL` to the kinds that it has not.
-const KINDS: [&str; 2] = [
+const KINDS: [&str; 3] = [
     r#"irregularity.deterministic={ kind = "sine", amplitude = 0.001, wavelength = 10, phase = 0.5 }"#,
     r#"density.smoothing={ rule = "normal-reference" }"#,
+    r#"exact.case={ kind = "duffing", natural_frequency = 2, damping_ratio = 0.05, cubic = 10, intensity = 0.01 }"#,
 ];
 
 #[test]
@@ -228,6 +235,33 @@ fn optional_keys_are_read() {
             phase: 0.5
         }))
     ));
+}
+
+#[test]
+fn exact_cases_have_their_times() {
+    use crate::exact::{Case, Duffing, FreeVibration};
+    let scenario = full();
+    let spec = scenario.exact().unwrap();
+    assert_eq!(scenario.exact_times(&spec).unwrap(), [0.5, 0.75, 1.0]);
+    let vibration = FreeVibration {
+        lowest_frequency: 4.0,
+        highest_frequency: 5.0,
+        amplitude: 0.1,
+        amplitude_deviation: 0.01,
+    };
+    assert_eq!(spec.case.build(), Case::FreeVibration(vibration));
+    let scenario = scenario.set(&sets(&KINDS)).unwrap();
+    let duffing = Case::Duffing(Duffing::new(0.05, 2.0, 0.01, 10.0));
+    assert_eq!(scenario.exact().unwrap().case.build(), duffing);
+    // Without times those that are recorded.
+    let options = [
+        "exact.times=",
+        "simulation.duration=0.07",
+        "simulation.time_step=0.01",
+    ];
+    let scenario = scenario.set(&sets(&options)).unwrap();
+    let times = scenario.exact_times(&scenario.exact().unwrap()).unwrap();
+    assert_eq!(times, [0.0, 0.02, 0.04, 0.06]);
 }
 
 #[test]

@@ -58,6 +58,7 @@ fn is_tag(key: &str) -> bool {
         ".irregularity.deterministic.kind",
         ".density.smoothing.rule",
         ".random.distribution.kind",
+        ".exact.case.kind",
         ".reliability.smoothing.rule",
     ];
     tags.contains(&key)
@@ -101,6 +102,7 @@ fn every_key_is_described_and_every_number_has_its_unit() {
         ".density.evolution.courant",
         ".density.smoothing.factor",
         ".density.smoothing.width",
+        ".exact.case.damping_ratio",
         ".irregularity.deterministic.scale",
         ".reliability.confidence",
         ".reliability.limit.threshold",
