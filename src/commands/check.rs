@@ -1,12 +1,12 @@
 //! `dpim check`: what a scenario costs and whether its step is stable, before the work.
 
+use super::{Context, excite};
 use crate::Result;
 use crate::cli;
 use crate::ensemble::LANES;
 use crate::files::recording::band_layout;
 use crate::integrate::Integrator;
-use crate::irregularity::SpectralRepresentation;
-use crate::scenario::{IrregularitySpec, Precision, Scenario};
+use crate::scenario::{Precision, Scenario, SpectrumSpec};
 use crate::system::{Crossing, largest_stable_step};
 use std::fmt::Write;
 
@@ -14,7 +14,7 @@ use std::fmt::Write;
 /// measured to take 3.2 to 5 ns.
 const POINT_STEPS_PER_SECOND: f64 = 3e8;
 
-pub(super) fn run(args: &cli::Check) -> Result<()> {
+pub(super) fn run(context: &Context, args: &cli::Check) -> Result<()> {
     let scenario = args.scenario.load()?;
     scenario.check_all()?;
     let mut text = String::new();
@@ -27,7 +27,7 @@ pub(super) fn run(args: &cli::Check) -> Result<()> {
         scenario.title().unwrap_or("without a title")
     ));
     let points = if scenario.has("points") {
-        excitation(&scenario, &mut write)?
+        excitation(context, &scenario, &mut write)?
     } else {
         None
     };
@@ -43,7 +43,11 @@ pub(super) fn run(args: &cli::Check) -> Result<()> {
 }
 
 /// Points and irregularity; returns the number of points.
-fn excitation(scenario: &Scenario, write: &mut impl FnMut(String)) -> Result<Option<usize>> {
+fn excitation(
+    context: &Context,
+    scenario: &Scenario,
+    write: &mut impl FnMut(String),
+) -> Result<Option<usize>> {
     let spec = scenario.points()?;
     if !scenario.has("irregularity") {
         return Ok(None);
@@ -51,7 +55,8 @@ fn excitation(scenario: &Scenario, write: &mut impl FnMut(String)) -> Result<Opt
     let irregularity = scenario.irregularity()?;
     scenario.check_truncation(&spec, &irregularity)?;
     let grid = scenario.irregularity_grid(&irregularity)?;
-    let dimensions = variables(&irregularity);
+    let field = excite::read_field(context, scenario, &irregularity, grid)?;
+    let dimensions = field.as_ref().map_or(0, |field| field.dimensions());
     // The number of points does not depend on the dimensions.
     let count = spec.build(dimensions.min(2)).count();
     write(format!(
@@ -65,21 +70,17 @@ fn excitation(scenario: &Scenario, write: &mut impl FnMut(String)) -> Result<Opt
         grid.position(grid.count - 1),
         grid.spacing
     ));
-    if let (Some(crate::scenario::SpectrumSpec::SecondOrderFilter(filter)), Some(band)) =
-        (&irregularity.spectrum, &irregularity.wavenumber)
-    {
-        let filter = filter.build();
-        let field = SpectralRepresentation::new(
-            &filter,
-            irregularity.field.build(),
-            band.max,
-            band.count as usize,
-        );
-        write(format!(
-            "  standard deviation {:.6e} m (of the whole spectrum: {:.6e} m)",
-            field.variance().sqrt(),
-            filter.variance().sqrt()
-        ));
+    if let (Some(field), Some(band)) = (&field, &irregularity.wavenumber) {
+        write(format!("  {}", field.describe()));
+        let whole = match &irregularity.spectrum {
+            Some(SpectrumSpec::SecondOrderFilter(filter)) => {
+                let deviation = filter.build().variance().sqrt();
+                format!(" (of the whole spectrum: {deviation:.6e} m)")
+            }
+            Some(SpectrumSpec::Table(_)) | None => String::new(),
+        };
+        let deviation = field.variance().sqrt();
+        write(format!("  standard deviation {deviation:.6e} m{whole}"));
         let period = 2.0 * std::f64::consts::PI * f64::from(band.count) / band.max;
         let length = grid.position(grid.count - 1) - grid.start;
         if length > 0.5 * period {
@@ -93,16 +94,6 @@ fn excitation(scenario: &Scenario, write: &mut impl FnMut(String)) -> Result<Opt
         size(count * (8 * grid.count + 8))
     ));
     Ok(Some(count))
-}
-
-fn variables(spec: &IrregularitySpec) -> usize {
-    let per_wavenumber = match spec.field {
-        crate::scenario::FieldKind::Gaussian => 2,
-        crate::scenario::FieldKind::RandomPhase => 1,
-    };
-    spec.wavenumber
-        .as_ref()
-        .map_or(0, |band| per_wavenumber * band.count as usize)
 }
 
 /// Frequencies, steps and sizes of the simulation.

@@ -2,12 +2,12 @@
 
 use super::Context;
 use super::responses::{self, Source};
-use crate::Result;
 use crate::cli;
-use crate::density::{Moments, Options, TimeDensity, estimate};
-use crate::files::recording::Recordings;
+use crate::density::{Moments, Options, TimeDensity, estimate, pseudo_excitation};
+use crate::files::recording::{Axis, Recordings};
 use crate::files::tables::{DensityWriter, MomentsRow, MomentsWriter};
-use crate::files::{Kind, OutputFile};
+use crate::files::{Kind, OutputFile, Weights};
+use crate::{BadInput, Result};
 
 pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
     let mut outputs = vec![("--output", args.output.output.as_path())];
@@ -25,11 +25,19 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
         points_per_time: spec.points_per_time as usize,
         grid: spec.grid.build(),
     };
+    let method = match recordings.weights() {
+        Weights::Assigned | Weights::Importance => {
+            format!("smoothing by {}", options.smoothing.name())
+        }
+        Weights::Harmonics => {
+            check_linear(&recordings, &wanted)?;
+            "exact normal densities by pseudo-excitation".to_owned()
+        }
+    };
     context.detail(format!(
-        "{} points, {} times, smoothing by {}",
+        "{} points, {} times, {method}",
         recordings.points(),
         recordings.times().len(),
-        options.smoothing.name()
     ));
     let stamp = |kind| responses::stamp(kind, &recordings, &scenario);
     let clobber = !args.output.no_clobber;
@@ -61,13 +69,39 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
             recordings: &recordings,
             times: recordings.times_of(*first),
         };
-        estimate(&source, &quantities, options, |result| {
+        let take = |result: TimeDensity| {
             bar.inc(1);
             tables.append(source.times[result.time], &result)
-        })?;
+        };
+        match recordings.weights() {
+            Weights::Assigned | Weights::Importance => {
+                estimate(&source, &quantities, options, take)?;
+            }
+            Weights::Harmonics => {
+                let (nodes, grid) = (options.points_per_time, options.grid);
+                pseudo_excitation(&source, &quantities, nodes, grid, take)?;
+            }
+        }
     }
     bar.finish_and_clear();
     tables.finish(context)
+}
+
+/// Refuses quantities that are no linear function of the irregularity: values a point, such as an
+/// index of comfort.
+fn check_linear(recordings: &Recordings, wanted: &[usize]) -> Result<()> {
+    let quantities = recordings.quantities();
+    match wanted.iter().find(|k| quantities[**k].axis == Axis::Point) {
+        None => Ok(()),
+        Some(k) => Err(BadInput::new(
+            recordings.place(),
+            quantities[*k].topic(),
+            "a quantity over time: these are the harmonics of a pseudo-excitation",
+            "one value a point, no linear function of the irregularity",
+        )
+        .remedy("name others in density.quantities, or excite without --pseudo-excitation")
+        .into()),
+    }
 }
 
 /// The outputs.

@@ -5,9 +5,10 @@ use crate::cli;
 use crate::files::points::{PointsBatch, PointsHeader, PointsWriter, ROW_GROUP};
 use crate::files::{Kind, OutputFile, Provenance, Weights, tabulated};
 use crate::irregularity::{
-    Deterministic, Grid, PowerSpectralDensity, SpectralRepresentation, Synthesis, Tabulated,
+    Deterministic, Grid, Irregularity, PowerSpectralDensity, RandomField, SpectralRepresentation,
+    Tabulated,
 };
-use crate::probability::PointRule;
+use crate::probability::{PointRule, UnitVectors};
 use crate::scenario::{
     DeterministicSpec, IrregularitySpec, ProfileSpec, Scenario, Sided, SpectrumSpec,
     SpectrumTableSpec, WavenumberUnit,
@@ -26,15 +27,63 @@ pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
         &[("--output", &args.output.output)],
     )?;
     let scenario = load(args)?;
-    let points = scenario.points()?;
     let spec = scenario.irregularity()?;
-    scenario.check_truncation(&points, &spec)?;
-    let source = Source::new(context, &scenario, &spec)?;
-    let dimensions = source
-        .field
-        .as_ref()
-        .map_or(0, SpectralRepresentation::dimensions);
-    let rule = points.build(dimensions);
+    let irregularity = read_irregularity(context, &scenario, &spec)?;
+    let chosen = if args.pseudo_excitation {
+        harmonics(&scenario, &spec, &irregularity)?
+    } else {
+        representative_points(&scenario, &spec, &irregularity)?
+    };
+    let rule = chosen.rule.as_ref();
+    let grid = irregularity.grid();
+    let header = PointsHeader {
+        weights: chosen.weights,
+        position_start: grid.start,
+        position_step: grid.spacing,
+        positions: grid.count,
+        components: vec!["vertical".to_owned()],
+        parameters: Vec::new(),
+        variables: 0,
+        provenance: Provenance::stamp(
+            Kind::Points,
+            Some(scenario.text()),
+            chosen.seed,
+            &[],
+            &chosen.options,
+        ),
+    };
+    context.detail(format!(
+        "{} points by {}, {} variables, {} positions from {} m, {}",
+        rule.count(),
+        chosen.name,
+        rule.dimensions(),
+        grid.count,
+        grid.start,
+        irregularity.describe(),
+    ));
+    let output = OutputFile::create(&args.output.output, !args.output.no_clobber)?;
+    let writer = PointsWriter::create(output, &header)?;
+    write(context, rule, &irregularity, writer)
+}
+
+/// Points, and what the file says of them.
+struct Chosen {
+    rule: Box<dyn PointRule>,
+    weights: Weights,
+    name: &'static str,
+    seed: Option<u64>,
+    /// What determines the points beside the scenario.
+    options: Vec<String>,
+}
+
+fn representative_points(
+    scenario: &Scenario,
+    spec: &IrregularitySpec,
+    irregularity: &Irregularity,
+) -> Result<Chosen> {
+    let points = scenario.points()?;
+    scenario.check_truncation(&points, spec)?;
+    let rule = points.build(irregularity.dimensions());
     if rule.count() == 0 {
         let found = points.truncate_at.map_or_else(
             || "none".to_owned(),
@@ -48,34 +97,42 @@ pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
             )
             .into());
     }
-    let header = PointsHeader {
+    Ok(Chosen {
+        rule,
         weights: Weights::Assigned,
-        position_start: source.grid.start,
-        position_step: source.grid.spacing,
-        positions: source.grid.count,
-        components: vec!["vertical".to_owned()],
-        parameters: Vec::new(),
-        variables: 0,
-        provenance: Provenance::stamp(
-            Kind::Points,
-            Some(scenario.text()),
-            Some(points.seed),
-            &[],
-            &[],
-        ),
+        name: points.rule.name(),
+        seed: Some(points.seed),
+        options: Vec::new(),
+    })
+}
+
+/// The deterministic profile, then one harmonic a point: what each variable of the field adds to it.
+fn harmonics(
+    scenario: &Scenario,
+    spec: &IrregularitySpec,
+    irregularity: &Irregularity,
+) -> Result<Chosen> {
+    let Some(field) = irregularity.field() else {
+        let expected = "a spectrum, whose harmonics --pseudo-excitation writes";
+        return Err(scenario
+            .bad("irregularity.spectrum", expected, "none")
+            .into());
     };
-    context.detail(format!(
-        "{} points by {}, {} variables, {} positions from {} m, {}",
-        rule.count(),
-        points.rule.name(),
-        dimensions,
-        source.grid.count,
-        source.grid.start,
-        source.describe(),
-    ));
-    let output = OutputFile::create(&args.output.output, !args.output.no_clobber)?;
-    let writer = PointsWriter::create(output, &header)?;
-    write(context, rule.as_ref(), &source, writer)
+    if !field.is_linear() {
+        let expected = "\"gaussian\" or \"karhunen-loeve\", a sum of harmonics with normal amplitudes, for --pseudo-excitation";
+        let found = format!("\"{}\"", spec.field.name());
+        return Err(scenario
+            .bad("irregularity.field", expected, found)
+            .remedy("add --set irregularity.field=gaussian, of the same covariance")
+            .into());
+    }
+    Ok(Chosen {
+        rule: Box::new(UnitVectors::new(field.dimensions())),
+        weights: Weights::Harmonics,
+        name: "pseudo-excitation",
+        seed: None,
+        options: vec!["pseudo-excitation".to_owned()],
+    })
 }
 
 fn load(args: &cli::Excite) -> Result<Scenario> {
@@ -93,7 +150,7 @@ fn load(args: &cli::Excite) -> Result<Scenario> {
 fn write(
     context: &Context,
     rule: &dyn PointRule,
-    source: &Source,
+    irregularity: &Irregularity,
     mut writer: PointsWriter,
 ) -> Result<()> {
     struct Group {
@@ -128,8 +185,8 @@ fn write(
             }
             let points = first..(first + ROW_GROUP).min(rule.count());
             let mut rows = spare.try_recv().unwrap_or_default();
-            rows.resize(points.len() * source.grid.count, 0.0);
-            source.fill(rule, points.start, &mut rows);
+            rows.resize(points.len() * irregularity.grid().count, 0.0);
+            fill(rule, irregularity, points.start, &mut rows);
             bar.inc(points.len() as u64);
             if full.send(Group { points, rows }).is_err() {
                 break;
@@ -146,84 +203,48 @@ fn write(
     })
 }
 
-/// Where the rows come from.
-struct Source {
-    grid: Grid,
-    field: Option<SpectralRepresentation>,
-    synthesis: Option<Synthesis>,
-    /// The deterministic part at the positions.
-    mean: Vec<f64>,
+/// Fills `[point][position]` from the point `first` on.
+fn fill(rule: &dyn PointRule, irregularity: &Irregularity, first: usize, rows: &mut [f64]) {
+    let positions = irregularity.grid().count;
+    rows.par_chunks_mut(PART * positions)
+        .enumerate()
+        .for_each_init(Vec::new, |variables, (part, rows)| {
+            let count = rows.len() / positions;
+            let start = first + part * PART;
+            variables.resize(rule.dimensions() * count, 0.0);
+            rule.standard_normals(start..start + count, variables);
+            irregularity.fill(variables, count, rows);
+        });
 }
 
-impl Source {
-    fn new(context: &Context, scenario: &Scenario, spec: &IrregularitySpec) -> Result<Self> {
-        let grid = scenario.irregularity_grid(spec)?;
-        let field = match (&spec.spectrum, &spec.wavenumber) {
-            (Some(spectrum), Some(band)) => {
-                let spectrum = read_spectrum(context, scenario, spectrum, band.max)?;
-                let form = spec.field.build();
-                Some(SpectralRepresentation::new(
-                    spectrum.as_ref(),
-                    form,
-                    band.max,
-                    band.count as usize,
-                ))
-            }
-            _ => None,
-        };
-        let deterministic = match &spec.deterministic {
-            Some(deterministic) => read_deterministic(context, scenario, deterministic, grid)?,
-            None => Deterministic::Smooth,
-        };
-        Ok(Source {
-            synthesis: field.as_ref().map(|field| Synthesis::new(field, grid)),
-            mean: (0..grid.count)
-                .map(|j| deterministic.height(grid.position(j)))
-                .collect(),
-            grid,
-            field,
-        })
-    }
+/// The irregularity of a scenario, its files read.
+pub(super) fn read_irregularity(
+    context: &Context,
+    scenario: &Scenario,
+    spec: &IrregularitySpec,
+) -> Result<Irregularity> {
+    let grid = scenario.irregularity_grid(spec)?;
+    let field = read_field(context, scenario, spec, grid)?;
+    let deterministic = match &spec.deterministic {
+        Some(deterministic) => read_deterministic(context, scenario, deterministic, grid)?,
+        None => Deterministic::Smooth,
+    };
+    Ok(Irregularity::new(grid, &deterministic, field))
+}
 
-    fn describe(&self) -> String {
-        match (&self.field, &self.synthesis) {
-            (Some(field), Some(synthesis)) => format!(
-                "standard deviation of the field {:.6} m, sums by {:?}",
-                field.variance().sqrt(),
-                synthesis.method()
-            ),
-            _ => "no random field".to_owned(),
-        }
-    }
-
-    /// Fills `[point][position]` from the point `first` on.
-    fn fill(&self, rule: &dyn PointRule, first: usize, rows: &mut [f64]) {
-        let positions = self.grid.count;
-        rows.par_chunks_mut(PART * positions)
-            .enumerate()
-            .for_each_init(
-                || (Vec::new(), Vec::new()),
-                |(variables, coefficients), (part, rows)| {
-                    for row in rows.chunks_exact_mut(positions) {
-                        row.copy_from_slice(&self.mean);
-                    }
-                    let (Some(field), Some(synthesis)) = (&self.field, &self.synthesis) else {
-                        return;
-                    };
-                    let count = rows.len() / positions;
-                    let start = first + part * PART;
-                    variables.resize(field.dimensions() * count, 0.0);
-                    rule.standard_normals(start..start + count, variables);
-                    if field.is_gaussian() {
-                        synthesis.add(variables, count, rows);
-                    } else {
-                        coefficients.resize(2 * field.amplitudes().len() * count, 0.0);
-                        field.coefficients(variables, count, coefficients);
-                        synthesis.add(coefficients, count, rows);
-                    }
-                },
-            );
-    }
+/// The random field of a scenario, where it has a spectrum.
+pub(super) fn read_field(
+    context: &Context,
+    scenario: &Scenario,
+    spec: &IrregularitySpec,
+    grid: Grid,
+) -> Result<Option<Box<dyn RandomField>>> {
+    let (Some(spectrum), Some(band)) = (&spec.spectrum, &spec.wavenumber) else {
+        return Ok(None);
+    };
+    let spectrum = read_spectrum(context, scenario, spectrum, band.max)?;
+    let spectrum = SpectralRepresentation::new(spectrum.as_ref(), band.max, band.count as usize);
+    scenario.random_field(spec, spectrum, grid).map(Some)
 }
 
 /// The spectrum of a scenario, its table read where it has one.

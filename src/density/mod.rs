@@ -13,17 +13,22 @@
 //! Up to [`EXACT_POINTS`] points the sum runs over the points themselves; more are first shared
 //! among bins a sixth of σ wide (linear binning, whose variance is taken off the kernel's), so that
 //! memory does not grow with the number of points.
+//!
+//! For a linear system under a Gaussian irregularity [`pseudo_excitation`] gives the normal density
+//! itself, from the responses to harmonics.
 
 mod bins;
 mod cells;
 mod estimate;
 mod kernel;
+mod pseudo_excitation;
 mod smoothing;
 mod statistics;
 
 pub use bins::Bins;
 pub use estimate::{EXACT_POINTS, Grid, Options, TimeDensity, estimate};
 pub use kernel::{Curve, Nodes, smooth};
+pub use pseudo_excitation::pseudo_excitation;
 pub use smoothing::{Smoothing, Spread};
 pub use statistics::{LEVELS, Moments, PowerSums, Weighted};
 

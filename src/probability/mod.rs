@@ -9,12 +9,14 @@ mod lattice;
 mod normal;
 mod permutation;
 mod stratified;
+mod unit_vectors;
 
 pub use independent::{LatinHypercube, MonteCarlo};
 pub use lattice::Lattice;
 pub use normal::{cumulative, density, quantile};
 pub use permutation::Permutation;
 pub use stratified::PartiallyStratified;
+pub use unit_vectors::UnitVectors;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

@@ -49,7 +49,7 @@ pub use irregularity::{
 };
 pub use points::{PointsSpec, RuleKind};
 pub use reliability::{LimitKind, LimitSpec, ReliabilitySpec};
-pub use schema::{ScenarioSpec, json_schema};
+pub use schema::{ScenarioSpec, is_key, json_schema};
 pub use simulation::{Compression, InitialState, IntegratorKind, Precision, SimulationSpec};
 pub use suggestion::nearest;
 pub use vehicle::{BumpStopSpec, QuarterCarSpec, VehicleSpec};

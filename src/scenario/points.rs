@@ -79,7 +79,7 @@ impl Scenario {
         irregularity: &IrregularitySpec,
     ) -> Result<()> {
         match (points.truncate_at, irregularity.field) {
-            (None, _) | (Some(_), FieldKind::Gaussian) => Ok(()),
+            (None, _) | (Some(_), FieldKind::Gaussian | FieldKind::KarhunenLoeve) => Ok(()),
             (Some(_), FieldKind::RandomPhase) => Err(self
                 .bad(
                     "points.truncate_at",

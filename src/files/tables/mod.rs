@@ -214,12 +214,12 @@ const MOMENTS: &[Column] = &[
     number(
         "smoothing_width",
         Unit::Quantity,
-        "standard deviation of the smoothing kernel",
+        "standard deviation of the smoothing kernel; 0 for the exact densities of a pseudo-excitation",
     ),
     number(
         "effective_count",
         ONE,
-        "effective number of points, (sum of weights)^2 / sum of squared weights",
+        "effective number of points, (sum of weights)^2 / sum of squared weights; of a pseudo-excitation the effective number of harmonics, (sum of squares)^2 / sum of fourth powers of their responses",
     ),
 ];
 

@@ -89,9 +89,11 @@ limit = [{ name = "stress", quantity = "bridge/quarter/stress", kind = "lower", 
 "#;
 
 /// Overrides of `FULL` to the kinds that it has not.
-const KINDS: [&str; 2] = [
+const KINDS: [&str; 4] = [
     r#"irregularity.deterministic={ kind = "sine", amplitude = 0.001, wavelength = 10, phase = 0.5 }"#,
     r#"density.smoothing={ rule = "normal-reference" }"#,
+    "irregularity.field=karhunen-loeve",
+    "irregularity.terms=50",
 ];
 
 #[test]
