@@ -5,7 +5,7 @@ mod cpu;
 use cpu::CpuTime;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dpim::irregularity::{
-    FieldForm, FilterForm, Grid, Method, SecondOrderFilter, SpectralRepresentation, Synthesis,
+    FilterForm, Grid, Method, SecondOrderFilter, SpectralRepresentation, Synthesis,
 };
 use dpim::probability::{MonteCarlo, PointRule};
 
@@ -16,15 +16,16 @@ fn irregularity(criterion: &mut Criterion<CpuTime>) {
         gamma: 1e-4,
         form: FilterForm::Corrected,
     };
-    let field = SpectralRepresentation::new(&spectrum, FieldForm::Gaussian, 10.0, 512);
+    let field = SpectralRepresentation::new(&spectrum, 10.0, 512);
     let grid = Grid {
         start: 0.0,
         spacing: 0.2,
         count: 200,
     };
     let points = 512;
-    let mut coefficients = vec![0.0; field.dimensions() * points];
-    MonteCarlo::new(points, field.dimensions(), 1).standard_normals(0..points, &mut coefficients);
+    let variables = 2 * field.amplitudes().len();
+    let mut coefficients = vec![0.0; variables * points];
+    MonteCarlo::new(points, variables, 1).standard_normals(0..points, &mut coefficients);
     let mut out = vec![0.0; points * grid.count];
     let mut group = criterion.benchmark_group("irregularity");
     group.throughput(Throughput::Elements(points as u64));

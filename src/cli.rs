@@ -96,6 +96,10 @@ pub struct Excite {
     pub scenario: ScenarioArgs,
     #[command(flatten)]
     pub output: OutputArgs,
+    /// Write the deterministic irregularity and the harmonics of the random one instead of representative points:
+    /// `density` then gives the exact normal densities of a linear system. The table [points] is not used
+    #[arg(long, conflicts_with_all = ["seed", "count"])]
+    pub pseudo_excitation: bool,
     /// Override points.seed
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,

@@ -1,14 +1,14 @@
 //! `dpim check`: what a scenario costs and whether its step is stable, before the work.
 
 use super::random::{Leading, warnings};
+use super::{Context, excite};
 use crate::Result;
 use crate::cli;
 use crate::ensemble::LANES;
 use crate::files::recording::band_layout;
 use crate::integrate::Integrator;
-use crate::irregularity::SpectralRepresentation;
 use crate::probability::distribution::Tail;
-use crate::scenario::{IrregularitySpec, Precision, RandomParameters, Scenario};
+use crate::scenario::{Precision, RandomParameters, Scenario, SpectrumSpec};
 use crate::system::{Crossing, largest_stable_step};
 use std::fmt::Write;
 
@@ -16,7 +16,7 @@ use std::fmt::Write;
 /// measured to take 3.2 to 5 ns.
 const POINT_STEPS_PER_SECOND: f64 = 3e8;
 
-pub(super) fn run(args: &cli::Check) -> Result<()> {
+pub(super) fn run(context: &Context, args: &cli::Check) -> Result<()> {
     let scenario = args.scenario.load()?;
     scenario.check_all()?;
     let mut text = String::new();
@@ -31,7 +31,7 @@ pub(super) fn run(args: &cli::Check) -> Result<()> {
     let random = super::random::read(&scenario)?;
     describe(&random, &mut write);
     let points = if scenario.has("points") {
-        excitation(&scenario, random, &mut write)?
+        excitation(context, &scenario, random, &mut write)?
     } else {
         None
     };
@@ -48,6 +48,7 @@ pub(super) fn run(args: &cli::Check) -> Result<()> {
 
 /// Points and irregularity; returns the number of points.
 fn excitation(
+    context: &Context,
     scenario: &Scenario,
     random: RandomParameters,
     write: &mut impl FnMut(String),
@@ -59,9 +60,10 @@ fn excitation(
     let irregularity = scenario.irregularity()?;
     scenario.check_truncation(&spec, &irregularity)?;
     let grid = scenario.irregularity_grid(&irregularity)?;
-    let field = variables(&irregularity);
-    let dimensions = random.dimensions() + field;
-    let leading = Leading::new(random, &spec, field);
+    let field = excite::read_field(context, scenario, &irregularity, grid)?;
+    let own = field.as_ref().map_or(0, |field| field.dimensions());
+    let dimensions = random.dimensions() + own;
+    let leading = Leading::new(random, &spec, own);
     let numbers = grid.count + leading.random.dimensions() + leading.variables;
     let count = scenario.point_count(&spec, dimensions, leading.random.dimensions())?;
     write(format!(
@@ -75,21 +77,17 @@ fn excitation(
         grid.position(grid.count - 1),
         grid.spacing
     ));
-    if let (Some(crate::scenario::SpectrumSpec::SecondOrderFilter(filter)), Some(band)) =
-        (&irregularity.spectrum, &irregularity.wavenumber)
-    {
-        let filter = filter.build();
-        let field = SpectralRepresentation::new(
-            &filter,
-            irregularity.field.build(),
-            band.max,
-            band.count as usize,
-        );
-        write(format!(
-            "  standard deviation {:.6e} m (of the whole spectrum: {:.6e} m)",
-            field.variance().sqrt(),
-            filter.variance().sqrt()
-        ));
+    if let (Some(field), Some(band)) = (&field, &irregularity.wavenumber) {
+        write(format!("  {}", field.describe()));
+        let whole = match &irregularity.spectrum {
+            Some(SpectrumSpec::SecondOrderFilter(filter)) => {
+                let deviation = filter.build().variance().sqrt();
+                format!(" (of the whole spectrum: {deviation:.6e} m)")
+            }
+            Some(SpectrumSpec::Table(_)) | None => String::new(),
+        };
+        let deviation = field.variance().sqrt();
+        write(format!("  standard deviation {deviation:.6e} m{whole}"));
         let period = 2.0 * std::f64::consts::PI * f64::from(band.count) / band.max;
         let length = grid.position(grid.count - 1) - grid.start;
         if length > 0.5 * period {
@@ -129,16 +127,6 @@ fn describe(random: &RandomParameters, write: &mut impl FnMut(String)) {
     for warning in warnings(random) {
         write(format!("  note: {warning}"));
     }
-}
-
-fn variables(spec: &IrregularitySpec) -> usize {
-    let per_wavenumber = match spec.field {
-        crate::scenario::FieldKind::Gaussian => 2,
-        crate::scenario::FieldKind::RandomPhase => 1,
-    };
-    spec.wavenumber
-        .as_ref()
-        .map_or(0, |band| per_wavenumber * band.count as usize)
 }
 
 /// Frequencies, steps and sizes of the simulation.

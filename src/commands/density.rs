@@ -4,13 +4,13 @@ mod evolution;
 
 use super::Context;
 use super::responses::{self, Source};
-use crate::Result;
 use crate::cli;
-use crate::density::{Moments, Options, TimeDensity, estimate};
-use crate::files::recording::Recordings;
+use crate::density::{Moments, Options, TimeDensity, estimate, pseudo_excitation};
+use crate::files::recording::{Axis, Recordings};
 use crate::files::tables::{DensityWriter, MomentsRow, MomentsWriter};
-use crate::files::{Kind, OutputFile};
+use crate::files::{Kind, OutputFile, Weights};
 use crate::scenario::{DensitySpec, MethodKind};
+use crate::{BadInput, Result};
 
 pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
     let mut outputs = vec![("--output", args.output.output.as_path())];
@@ -32,9 +32,20 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
         points_per_time: spec.points_per_time as usize,
         grid: spec.grid.build(),
     };
-    let how = match spec.method {
-        MethodKind::DirectIntegral => format!("smoothing by {}", options.smoothing.name()),
-        MethodKind::DensityEvolution => "density evolution".to_owned(),
+    let how = match (recordings.weights(), spec.method) {
+        (Weights::Harmonics, MethodKind::DirectIntegral) => {
+            check_linear(&recordings, &wanted)?;
+            "exact normal densities by pseudo-excitation".to_owned()
+        }
+        (Weights::Harmonics, MethodKind::DensityEvolution) => {
+            return Err(harmonics_have_their_own(&recordings).into());
+        }
+        (Weights::Assigned | Weights::Importance, MethodKind::DirectIntegral) => {
+            format!("smoothing by {}", options.smoothing.name())
+        }
+        (Weights::Assigned | Weights::Importance, MethodKind::DensityEvolution) => {
+            "density evolution".to_owned()
+        }
     };
     context.detail(format!(
         "{} points, {} times, {how}",
@@ -73,10 +84,19 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
                     recordings: &recordings,
                     times: recordings.times_of(*first),
                 };
-                estimate(&source, &quantities, options, |result| {
+                let take = |result: TimeDensity| {
                     bar.inc(1);
                     tables.append(source.times[result.time], &result)
-                })?;
+                };
+                match recordings.weights() {
+                    Weights::Assigned | Weights::Importance => {
+                        estimate(&source, &quantities, options, take)?;
+                    }
+                    Weights::Harmonics => {
+                        let (nodes, grid) = (options.points_per_time, options.grid);
+                        pseudo_excitation(&source, &quantities, nodes, grid, take)?;
+                    }
+                }
             }
         }
         MethodKind::DensityEvolution => {
@@ -91,6 +111,37 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
     }
     bar.finish_and_clear();
     tables.finish(context)
+}
+
+/// Refuses quantities that are no linear function of the irregularity: values a point, such as an
+/// index of comfort.
+fn check_linear(recordings: &Recordings, wanted: &[usize]) -> Result<()> {
+    let quantities = recordings.quantities();
+    match wanted.iter().find(|k| quantities[**k].axis == Axis::Point) {
+        None => Ok(()),
+        Some(k) => Err(BadInput::new(
+            recordings.place(),
+            quantities[*k].topic(),
+            "a quantity over time: these are the harmonics of a pseudo-excitation",
+            "one value a point, no linear function of the irregularity",
+        )
+        .remedy("name others in density.quantities, or excite without --pseudo-excitation")
+        .into()),
+    }
+}
+
+fn harmonics_have_their_own(recordings: &Recordings) -> BadInput {
+    let path = recordings
+        .members()
+        .next()
+        .map(|member| member.path.to_owned());
+    super::bad_file(
+        &path.unwrap_or_default(),
+        "",
+        "responses of representative points, for density evolution",
+        "harmonics of a pseudo-excitation",
+    )
+    .remedy("use the method direct-integral, which gives their normal densities")
 }
 
 /// The outputs.

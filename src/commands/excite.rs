@@ -6,10 +6,11 @@ use crate::cli;
 use crate::files::points::{PointsBatch, PointsHeader, PointsWriter, ROW_GROUP};
 use crate::files::{Kind, OutputFile, Provenance, Weights, tabulated};
 use crate::irregularity::{
-    Deterministic, Grid, PowerSpectralDensity, SpectralRepresentation, Synthesis, Tabulated,
+    Deterministic, Grid, Irregularity, PowerSpectralDensity, RandomField, SpectralRepresentation,
+    Tabulated,
 };
-use crate::probability::PointRule;
 use crate::probability::discrepancy::Quality;
+use crate::probability::{PointRule, UnitVectors};
 use crate::scenario::{
     DeterministicSpec, IrregularitySpec, ProfileSpec, Scenario, Sided, SpectrumSpec,
     SpectrumTableSpec, WavenumberUnit,
@@ -28,47 +29,46 @@ pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
         &[("--output", &args.output.output)],
     )?;
     let scenario = load(args)?;
-    let points = scenario.points()?;
     let spec = scenario.irregularity()?;
-    scenario.check_truncation(&points, &spec)?;
-    let source = Source::new(context, &scenario, &spec)?;
-    let field = source
-        .field
-        .as_ref()
-        .map_or(0, SpectralRepresentation::dimensions);
-    let leading = Leading::read(context, &scenario, &points, field)?;
-    let parameters = leading.random.dimensions();
-    let dimensions = parameters + field;
-    let rule = scenario.point_rule(&points, dimensions, parameters)?;
+    let irregularity = read_irregularity(context, &scenario, &spec)?;
+    let chosen = if args.pseudo_excitation {
+        harmonics(&scenario, &spec, &irregularity)?
+    } else {
+        representative_points(context, &scenario, &spec, &irregularity)?
+    };
+    let rule = chosen.rule.as_ref();
+    let grid = irregularity.grid();
     let header = PointsHeader {
-        weights: Weights::Assigned,
-        position_start: source.grid.start,
-        position_step: source.grid.spacing,
-        positions: source.grid.count,
+        weights: chosen.weights,
+        position_start: grid.start,
+        position_step: grid.spacing,
+        positions: grid.count,
         components: vec!["vertical".to_owned()],
-        parameters: leading.columns(),
-        variables: leading.variables,
+        parameters: chosen.leading.columns(),
+        variables: chosen.leading.variables,
         provenance: Provenance::stamp(
             Kind::Points,
             Some(scenario.text()),
-            Some(points.seed),
+            chosen.seed,
             &[],
-            &[],
+            &chosen.options,
         ),
     };
     context.detail(format!(
         "{} points by {}, {} variables, {} positions from {} m, {}",
         rule.count(),
-        points.rule.name(),
-        dimensions,
-        source.grid.count,
-        source.grid.start,
-        source.describe(),
+        chosen.name,
+        rule.dimensions(),
+        grid.count,
+        grid.start,
+        irregularity.describe(),
     ));
-    report(context, rule.as_ref());
+    if !args.pseudo_excitation {
+        report(context, rule);
+    }
     let output = OutputFile::create(&args.output.output, !args.output.no_clobber)?;
     let writer = PointsWriter::create(output, &header)?;
-    write(context, rule.as_ref(), &leading, &source, writer)
+    write(context, rule, &chosen.leading, &irregularity, writer)
 }
 
 /// What is to know about the points: their figures of merit where details are asked for.
@@ -91,6 +91,82 @@ fn report(context: &Context, rule: &dyn PointRule) {
     }
 }
 
+/// Points, and what the file says of them.
+struct Chosen {
+    rule: Box<dyn PointRule>,
+    /// Random parameters, and the variables that are kept.
+    leading: Leading,
+    weights: Weights,
+    name: &'static str,
+    seed: Option<u64>,
+    /// What determines the points beside the scenario.
+    options: Vec<String>,
+}
+
+fn representative_points(
+    context: &Context,
+    scenario: &Scenario,
+    spec: &IrregularitySpec,
+    irregularity: &Irregularity,
+) -> Result<Chosen> {
+    let points = scenario.points()?;
+    scenario.check_truncation(&points, spec)?;
+    let leading = Leading::read(context, scenario, &points, irregularity.dimensions())?;
+    let parameters = leading.random.dimensions();
+    let dimensions = parameters + irregularity.dimensions();
+    let rule = scenario.point_rule(&points, dimensions, parameters)?;
+    Ok(Chosen {
+        rule,
+        leading,
+        weights: Weights::Assigned,
+        name: points.rule.name(),
+        seed: Some(points.seed),
+        options: Vec::new(),
+    })
+}
+
+/// The deterministic profile, then one harmonic a point: what each variable of the field adds to it.
+fn harmonics(
+    scenario: &Scenario,
+    spec: &IrregularitySpec,
+    irregularity: &Irregularity,
+) -> Result<Chosen> {
+    let Some(field) = irregularity.field() else {
+        let expected = "a spectrum, whose harmonics --pseudo-excitation writes";
+        return Err(scenario
+            .bad("irregularity.spectrum", expected, "none")
+            .into());
+    };
+    if !field.is_linear() {
+        let expected = "\"gaussian\" or \"karhunen-loeve\", a sum of harmonics with normal amplitudes, for --pseudo-excitation";
+        let found = format!("\"{}\"", spec.field.name());
+        return Err(scenario
+            .bad("irregularity.field", expected, found)
+            .remedy("add --set irregularity.field=gaussian, of the same covariance")
+            .into());
+    }
+    let random = super::random::read(scenario)?;
+    if let Some(parameter) = random.iter().next() {
+        let expected =
+            "no random parameters: --pseudo-excitation is for a random irregularity alone";
+        return Err(scenario
+            .bad("random", expected, parameter.key.as_str())
+            .remedy("add --set random=")
+            .into());
+    }
+    Ok(Chosen {
+        leading: Leading {
+            random,
+            variables: 0,
+        },
+        rule: Box::new(UnitVectors::new(field.dimensions())),
+        weights: Weights::Harmonics,
+        name: "pseudo-excitation",
+        seed: None,
+        options: vec!["pseudo-excitation".to_owned()],
+    })
+}
+
 fn load(args: &cli::Excite) -> Result<Scenario> {
     let mut given = args.scenario.clone();
     given
@@ -107,7 +183,7 @@ fn write(
     context: &Context,
     rule: &dyn PointRule,
     leading: &Leading,
-    source: &Source,
+    irregularity: &Irregularity,
     mut writer: PointsWriter,
 ) -> Result<()> {
     struct Group {
@@ -143,8 +219,15 @@ fn write(
             }
             let points = first..(first + ROW_GROUP).min(rule.count());
             let (mut rows, mut drawn) = spare.try_recv().unwrap_or_default();
-            rows.resize(points.len() * source.grid.count, 0.0);
-            source.fill(rule, leading, points.start, &mut rows, &mut drawn);
+            rows.resize(points.len() * irregularity.grid().count, 0.0);
+            fill(
+                rule,
+                leading,
+                irregularity,
+                points.start,
+                &mut rows,
+                &mut drawn,
+            );
             filled = leading.check(points.start, &drawn);
             if filled.is_err() {
                 break;
@@ -170,97 +253,57 @@ fn write(
     })
 }
 
-/// Where the rows come from.
-struct Source {
-    grid: Grid,
-    field: Option<SpectralRepresentation>,
-    synthesis: Option<Synthesis>,
-    /// The deterministic part at the positions.
-    mean: Vec<f64>,
+/// Fills `[point][position]` from the point `first` on, and what is drawn beside.
+fn fill(
+    rule: &dyn PointRule,
+    leading: &Leading,
+    irregularity: &Irregularity,
+    first: usize,
+    rows: &mut [f64],
+    drawn: &mut Drawn,
+) {
+    let positions = irregularity.grid().count;
+    let pieces = drawn.pieces(leading, rows.len() / positions, PART);
+    rows.par_chunks_mut(PART * positions)
+        .zip(pieces)
+        .enumerate()
+        .for_each_init(Vec::new, |variables, (part, (rows, piece))| {
+            let count = rows.len() / positions;
+            let start = first + part * PART;
+            variables.resize(rule.dimensions() * count, 0.0);
+            rule.standard_normals(start..start + count, variables);
+            irregularity.fill(piece.take(variables), count, rows);
+        });
 }
 
-impl Source {
-    fn new(context: &Context, scenario: &Scenario, spec: &IrregularitySpec) -> Result<Self> {
-        let grid = scenario.irregularity_grid(spec)?;
-        let field = match (&spec.spectrum, &spec.wavenumber) {
-            (Some(spectrum), Some(band)) => {
-                let spectrum = read_spectrum(context, scenario, spectrum, band.max)?;
-                let form = spec.field.build();
-                Some(SpectralRepresentation::new(
-                    spectrum.as_ref(),
-                    form,
-                    band.max,
-                    band.count as usize,
-                ))
-            }
-            _ => None,
-        };
-        let deterministic = match &spec.deterministic {
-            Some(deterministic) => read_deterministic(context, scenario, deterministic, grid)?,
-            None => Deterministic::Smooth,
-        };
-        Ok(Source {
-            synthesis: field.as_ref().map(|field| Synthesis::new(field, grid)),
-            mean: (0..grid.count)
-                .map(|j| deterministic.height(grid.position(j)))
-                .collect(),
-            grid,
-            field,
-        })
-    }
+/// The irregularity of a scenario, its files read.
+pub(super) fn read_irregularity(
+    context: &Context,
+    scenario: &Scenario,
+    spec: &IrregularitySpec,
+) -> Result<Irregularity> {
+    let grid = scenario.irregularity_grid(spec)?;
+    let field = read_field(context, scenario, spec, grid)?;
+    let deterministic = match &spec.deterministic {
+        Some(deterministic) => read_deterministic(context, scenario, deterministic, grid)?,
+        None => Deterministic::Smooth,
+    };
+    Ok(Irregularity::new(grid, &deterministic, field))
+}
 
-    fn describe(&self) -> String {
-        match (&self.field, &self.synthesis) {
-            (Some(field), Some(synthesis)) => format!(
-                "standard deviation of the field {:.6} m, sums by {:?}",
-                field.variance().sqrt(),
-                synthesis.method()
-            ),
-            _ => "no random field".to_owned(),
-        }
-    }
-
-    /// Fills `[point][position]` from the point `first` on, and what is drawn beside.
-    fn fill(
-        &self,
-        rule: &dyn PointRule,
-        leading: &Leading,
-        first: usize,
-        rows: &mut [f64],
-        drawn: &mut Drawn,
-    ) {
-        let positions = self.grid.count;
-        let pieces = drawn.pieces(leading, rows.len() / positions, PART);
-        rows.par_chunks_mut(PART * positions)
-            .zip(pieces)
-            .enumerate()
-            .for_each_init(
-                || (Vec::new(), Vec::new()),
-                |(variables, coefficients), (part, (rows, piece))| {
-                    for row in rows.chunks_exact_mut(positions) {
-                        row.copy_from_slice(&self.mean);
-                    }
-                    if rule.dimensions() == 0 {
-                        return;
-                    }
-                    let count = rows.len() / positions;
-                    let start = first + part * PART;
-                    variables.resize(rule.dimensions() * count, 0.0);
-                    rule.standard_normals(start..start + count, variables);
-                    let variables = piece.take(variables);
-                    let (Some(field), Some(synthesis)) = (&self.field, &self.synthesis) else {
-                        return;
-                    };
-                    if field.is_gaussian() {
-                        synthesis.add(variables, count, rows);
-                    } else {
-                        coefficients.resize(2 * field.amplitudes().len() * count, 0.0);
-                        field.coefficients(variables, count, coefficients);
-                        synthesis.add(coefficients, count, rows);
-                    }
-                },
-            );
-    }
+/// The random field of a scenario, where it has a spectrum.
+pub(super) fn read_field(
+    context: &Context,
+    scenario: &Scenario,
+    spec: &IrregularitySpec,
+    grid: Grid,
+) -> Result<Option<Box<dyn RandomField>>> {
+    let (Some(spectrum), Some(band)) = (&spec.spectrum, &spec.wavenumber) else {
+        return Ok(None);
+    };
+    let spectrum = read_spectrum(context, scenario, spectrum, band.max)?;
+    let spectrum = SpectralRepresentation::new(spectrum.as_ref(), band.max, band.count as usize);
+    scenario.random_field(spec, spectrum, grid).map(Some)
 }
 
 /// The spectrum of a scenario, its table read where it has one.

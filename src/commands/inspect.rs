@@ -5,7 +5,7 @@ use crate::cli;
 use crate::files::points::PointsReader;
 use crate::files::recording::{Axis, Recordings};
 use crate::files::tables::{Units, read_comparison, read_density, read_moments, read_reliability};
-use crate::files::{Kind, Provenance, identify};
+use crate::files::{Kind, Provenance, Weights, identify};
 use crate::response::effective_count;
 use std::fmt::Write;
 use std::path::Path;
@@ -86,17 +86,35 @@ impl std::fmt::Display for Span {
     }
 }
 
+/// What the points are, and their probabilities.
+fn weights(weights: Weights, probability: &[f64]) -> String {
+    match weights {
+        Weights::Assigned | Weights::Importance => {
+            let sum: f64 = probability.iter().sum();
+            format!("{} probabilities, sum {sum:.12}", weights.name())
+        }
+        Weights::Harmonics => {
+            "a pseudo-excitation: point 0 without, all others with one harmonic".to_owned()
+        }
+    }
+}
+
 fn points(path: &Path, text: &mut String) -> Result<()> {
     let reader = PointsReader::open(path)?;
     let header = reader.header();
     stamp(path, Kind::Points, header.provenance.as_ref(), text);
     line!(
         text,
-        "{} points, {} probabilities, sum {:.12}, effective number {:.1}",
+        "{} points, {}{}",
         header.count,
-        header.weights.name(),
-        header.probability.iter().sum::<f64>(),
-        effective_count(&header.probability)
+        weights(header.weights, &header.probability),
+        match header.weights {
+            Weights::Assigned | Weights::Importance => {
+                let count = effective_count(&header.probability);
+                format!(", effective number {count:.1}")
+            }
+            Weights::Harmonics => String::new(),
+        }
     );
     line!(
         text,
@@ -147,12 +165,11 @@ fn recording(path: &Path, text: &mut String) -> Result<()> {
         .collect();
     line!(
         text,
-        "{} of {} points ({}), {} probabilities, sum {:.12}",
+        "{} of {} points ({}), {}",
         recording.points(),
         recording.points_total(),
         ranges.join(", "),
-        recording.weights().name(),
-        recording.probability().iter().sum::<f64>()
+        weights(recording.weights(), recording.probability())
     );
     if let (Some(first), Some(last)) = (recording.times().first(), recording.times().last()) {
         line!(

@@ -33,7 +33,7 @@ pub fn run(cli: Cli) -> Result<()> {
         Command::Compare(args) => compare::run(&context, &args),
         Command::Exact(args) => exact::run(&context, &args),
         Command::Plot(args) => plot::run(&context, &args),
-        Command::Check(args) => check::run(&args),
+        Command::Check(args) => check::run(&context, &args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Schema(args) => schema::run(&args),
         Command::Completions(args) => completions::run(&args),

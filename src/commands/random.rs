@@ -10,7 +10,7 @@ use crate::scenario::{PointsSpec, RandomParameters, RowsKind, Scenario, TableSpe
 const NEGLIGIBLE: f64 = 1e-12;
 
 /// Leading variables of the irregularity that are kept for each point, unless the scenario says otherwise.
-const LEADING: usize = 50;
+const LEADING: usize = 64;
 
 /// The random parameters of the scenario.
 pub(super) fn read(scenario: &Scenario) -> Result<RandomParameters> {

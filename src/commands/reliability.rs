@@ -19,6 +19,11 @@ pub(super) fn run(context: &Context, args: &cli::Reliability) -> Result<()> {
     );
     super::check_distinct(&args.scenario.inputs(&args.recordings), &outputs)?;
     let (recordings, scenario) = responses::open(context, &args.recordings, &args.scenario)?;
+    responses::check_representative(
+        &recordings.place(),
+        recordings.weights(),
+        "for first passage excite without --pseudo-excitation",
+    )?;
     let spec = scenario.reliability()?;
     let limits = limits(&recordings, &scenario, &spec)?;
     let options = Options {

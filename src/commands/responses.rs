@@ -1,13 +1,13 @@
 //! Recordings as the domain sees them.
 
 use super::Context;
-use crate::Result;
 use crate::cli::OptionalScenarioArgs;
 use crate::files::recording::{Axis, Recordings};
 use crate::files::tables::Units;
-use crate::files::{Kind, Provenance};
+use crate::files::{Kind, Provenance, Weights};
 use crate::response::{Block, Responses};
 use crate::scenario::{Compression, Precision, Scenario, SimulationSpec};
+use crate::{BadInput, Result};
 use std::path::PathBuf;
 
 /// Opens recordings and the scenario that goes with them.
@@ -68,6 +68,21 @@ fn check_same_simulation(recordings: &Recordings) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Refuses the harmonics of a pseudo-excitation where representative points are needed.
+pub(super) fn check_representative(place: &str, weights: Weights, remedy: &str) -> Result<()> {
+    match weights {
+        Weights::Assigned | Weights::Importance => Ok(()),
+        Weights::Harmonics => Err(BadInput::new(
+            place,
+            "weights",
+            "`assigned` or `importance`: representative points",
+            "`harmonics`: a pseudo-excitation",
+        )
+        .remedy(remedy)
+        .into()),
+    }
 }
 
 /// The recordings with the times of one kind of quantity.

@@ -8,9 +8,9 @@ use crate::files::points::{PointsReader, ReadBatch};
 use crate::files::recording::{
     self, Axis, Band, QuantityHeader, RecordingHeader, RecordingWriter, band_layout,
 };
-use crate::files::{Kind, OutputFile, Provenance};
+use crate::files::{Kind, OutputFile, Provenance, Weights};
 use crate::quantity::Quantity;
-use crate::scenario::{Compression, Precision, Scenario, SimulationSpec};
+use crate::scenario::{self, Compression, Precision, Scenario, SimulationSpec, VehicleSpec};
 use crate::{BadInput, Error, Result, interrupt, memory};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -31,6 +31,7 @@ pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
         context.note(note);
     }
     let reader = PointsReader::open(&args.points)?;
+    check_harmonics(args, &scenario, &reader)?;
     let range = checked_range(args, reader.header().count)?;
     let component = model.component(&args.points, &reader)?;
     let system = model.system(&scenario, &quantities, &args.points, &reader)?;
@@ -47,6 +48,40 @@ pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
         bytes: header.precision.bytes(),
     };
     run.execute(writer)
+}
+
+/// A pseudo-excitation needs a linear system without random parameters.
+fn check_harmonics(args: &cli::Simulate, scenario: &Scenario, reader: &PointsReader) -> Result<()> {
+    let header = reader.header();
+    match header.weights {
+        Weights::Harmonics => {}
+        Weights::Assigned | Weights::Importance => return Ok(()),
+    }
+    let file = args.points.display();
+    let VehicleSpec::QuarterCar(car) = scenario.vehicle()?;
+    if let Some(key) = car.nonlinear_key() {
+        let expected =
+            format!("a linear system: {file} holds the harmonics of a pseudo-excitation");
+        return Err(scenario
+            .bad(key, expected, "a nonlinear suspension")
+            .remedy("leave the key out, or excite without --pseudo-excitation")
+            .into());
+    }
+    let parameter = header
+        .parameters
+        .iter()
+        .find(|(key, _)| scenario::is_key(key));
+    match parameter {
+        None => Ok(()),
+        Some((key, _)) => Err(super::bad_file(
+            &args.points,
+            key,
+            "harmonics of a pseudo-excitation, the irregularity alone being random",
+            "a random parameter",
+        )
+        .remedy("excite without --pseudo-excitation")
+        .into()),
+    }
 }
 
 fn checked_range(args: &cli::Simulate, count: u32) -> Result<Range<u32>> {

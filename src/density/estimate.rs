@@ -12,7 +12,7 @@ pub const EXACT_POINTS: usize = 8192;
 /// Cells whose curves are held at a time.
 const TOGETHER: usize = 64;
 /// The most nodes of a common grid.
-const COMMON_NODES: f64 = 8192.0;
+pub(super) const COMMON_NODES: f64 = 8192.0;
 
 /// On which nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -18,6 +18,9 @@
 //! own density is known, takes the place of most of the sum.
 //!
 //! [`evolution`] is another method for the same densities, to compare with.
+//!
+//! For a linear system under a Gaussian irregularity [`pseudo_excitation`] gives the normal density
+//! itself, from the responses to harmonics.
 
 mod bins;
 mod cells;
@@ -25,6 +28,7 @@ pub mod control_variate;
 mod estimate;
 pub mod evolution;
 mod kernel;
+mod pseudo_excitation;
 mod smoothing;
 mod statistics;
 
@@ -32,6 +36,7 @@ pub use bins::Bins;
 pub use control_variate::{ControlVariate, ControlVariateError, Controlled, Exceedance};
 pub use estimate::{EXACT_POINTS, Grid, Options, TimeDensity, estimate};
 pub use kernel::{Curve, Nodes, smooth};
+pub use pseudo_excitation::pseudo_excitation;
 pub use smoothing::{Smoothing, Spread};
 pub use statistics::{LEVELS, Moments, PowerSums, Weighted};
 

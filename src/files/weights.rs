@@ -1,17 +1,21 @@
-//! What the probabilities of representative points mean, and when they are in order.
+//! What the probabilities of points mean, and when they are in order.
 
 use crate::{BadInput, Result};
 
 /// How far assigned probabilities may be from a sum of one.
 const TOLERANCE: f64 = 1e-9;
 
-/// What the probabilities of the points are.
+/// What the points and their probabilities are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weights {
     /// Assigned probabilities: they sum to one.
     Assigned,
     /// Importance weights: they sum to one in expectation only.
     Importance,
+    /// No representative points but a pseudo-excitation: the deterministic irregularity first, then one
+    /// harmonic a point above it. In place of probabilities each has the weight of the square of its
+    /// response, less that of the first, in the variance.
+    Harmonics,
 }
 
 impl Weights {
@@ -20,6 +24,7 @@ impl Weights {
         match self {
             Weights::Assigned => "assigned",
             Weights::Importance => "importance",
+            Weights::Harmonics => "harmonics",
         }
     }
 
@@ -28,10 +33,11 @@ impl Weights {
         match name {
             None | Some("assigned") => Ok(Weights::Assigned),
             Some("importance") => Ok(Weights::Importance),
+            Some("harmonics") => Ok(Weights::Harmonics),
             Some(other) => Err(BadInput::new(
                 place,
                 "weights",
-                "`assigned` or `importance`",
+                "`assigned`, `importance` or `harmonics`",
                 format!("`{other}`"),
             )
             .into()),
@@ -65,7 +71,7 @@ pub fn check_probabilities(place: &str, at: &str, weights: Weights, values: &[f6
         )
         .remedy("divide by the sum, or say `weights` = `importance` if they are importance weights")
         .into()),
-        Weights::Assigned | Weights::Importance => Ok(()),
+        Weights::Assigned | Weights::Importance | Weights::Harmonics => Ok(()),
     }
 }
 
@@ -114,7 +120,7 @@ mod tests {
     #[test]
     fn unknown_weights_are_refused_by_name() {
         assert_eq!(Weights::from_name("f", None).unwrap(), Weights::Assigned);
-        for weights in [Weights::Assigned, Weights::Importance] {
+        for weights in [Weights::Assigned, Weights::Importance, Weights::Harmonics] {
             assert_eq!(
                 Weights::from_name("f", Some(weights.name())).unwrap(),
                 weights
@@ -125,7 +131,7 @@ mod tests {
             .to_string();
         assert_eq!(
             message,
-            "f: weights: expected `assigned` or `importance`, found `equal`"
+            "f: weights: expected `assigned`, `importance` or `harmonics`, found `equal`"
         );
     }
 }

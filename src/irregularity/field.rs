@@ -1,103 +1,91 @@
-//! The spectral representation of a homogeneous random field.
-//!
-//! With Ω_k = (k − 1/2) ΔΩ, k = 1 ... K, and a_k = √(2 S(Ω_k) ΔΩ):
-//!
-//! ```text
-//! gaussian:      r(x) = Σ a_k (X_k cos Ω_k x + Y_k sin Ω_k x),     X_k, Y_k standard normal,
-//! random phase:  r(x) = Σ √2 a_k cos(Ω_k x + φ_k),                  φ_k uniform in 0 ... 2π.
-//! ```
-//!
-//! Both have the variance Σ a_k². The first is Gaussian for any K, the second in the limit.
-//! Source: M. Shinozuka, G. Deodatis, Appl. Mech. Rev. 44 (1991) 191-204.
+//! What every random field on a grid can do, and an irregularity as the sum of a deterministic
+//! profile and such a field.
 
-use super::PowerSpectralDensity;
-use crate::probability;
-use std::f64::consts::{PI, SQRT_2};
+use super::{Deterministic, Grid};
+use std::fmt::Debug;
 
-/// How a wavenumber's amplitudes are drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FieldForm {
-    /// Two standard normals a wavenumber.
-    Gaussian,
-    /// One phase a wavenumber.
-    RandomPhase,
+/// A random field of zero mean on a grid of positions, a function of independent standard normals.
+pub trait RandomField: Debug + Send + Sync {
+    /// The number of variables. The first ones carry most of the variance.
+    fn dimensions(&self) -> usize;
+
+    /// The variance (m²), the mean over the positions.
+    fn variance(&self) -> f64;
+
+    /// Whether the field is a sum over its variables, and so Gaussian.
+    fn is_linear(&self) -> bool;
+
+    /// Adds the fields of `points` points to `rows` `[point][position]` (m), from variables
+    /// `[dimension][point]`.
+    fn add(&self, variables: &[f64], points: usize, rows: &mut [f64]);
+
+    /// In words: the representation and how it is summed.
+    fn describe(&self) -> String;
 }
 
-/// A field by its wavenumbers and amplitudes.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SpectralRepresentation {
-    form: FieldForm,
-    /// ΔΩ (rad/m).
-    step: f64,
-    /// a_k (m).
-    amplitudes: Vec<f64>,
+/// The irregularity of representative points on a grid: η(x) = η₀(x) + r(x).
+#[derive(Debug)]
+pub struct Irregularity {
+    grid: Grid,
+    /// η₀ at the positions (m).
+    mean: Vec<f64>,
+    field: Option<Box<dyn RandomField>>,
 }
 
-impl SpectralRepresentation {
-    /// `count` wavenumbers up to `max` (rad/m), each in the middle of its share of the band.
+impl Irregularity {
+    /// A deterministic profile, and a random field on the same grid above it.
     pub fn new(
-        spectrum: &dyn PowerSpectralDensity,
-        form: FieldForm,
-        max: f64,
-        count: usize,
+        grid: Grid,
+        deterministic: &Deterministic,
+        field: Option<Box<dyn RandomField>>,
     ) -> Self {
-        let step = max / count as f64;
-        let amplitudes = (0..count)
-            .map(|k| (2.0 * spectrum.density((k as f64 + 0.5) * step) * step).sqrt())
-            .collect();
-        SpectralRepresentation {
-            form,
-            step,
-            amplitudes,
+        Irregularity {
+            grid,
+            mean: (0..grid.count)
+                .map(|j| deterministic.height(grid.position(j)))
+                .collect(),
+            field,
         }
     }
 
-    /// The number of standard normal variables: two or one a wavenumber.
+    /// The positions.
+    pub fn grid(&self) -> Grid {
+        self.grid
+    }
+
+    /// The random field r, where there is one.
+    pub fn field(&self) -> Option<&dyn RandomField> {
+        self.field.as_deref()
+    }
+
+    /// The number of standard normal variables; 0 without a random field.
     pub fn dimensions(&self) -> usize {
-        match self.form {
-            FieldForm::Gaussian => 2 * self.amplitudes.len(),
-            FieldForm::RandomPhase => self.amplitudes.len(),
+        self.field().map_or(0, RandomField::dimensions)
+    }
+
+    /// Fills `rows` `[point][position]` (m) from the variables `[dimension][point]`.
+    pub fn fill(&self, variables: &[f64], points: usize, rows: &mut [f64]) {
+        debug_assert_eq!(rows.len(), points * self.grid.count);
+        for row in rows.chunks_exact_mut(self.grid.count) {
+            row.copy_from_slice(&self.mean);
+        }
+        if let Some(field) = &self.field {
+            debug_assert_eq!(variables.len(), points * field.dimensions());
+            field.add(variables, points, rows);
         }
     }
 
-    /// ΔΩ (rad/m); the first wavenumber is half of it.
-    pub fn step(&self) -> f64 {
-        self.step
-    }
-
-    /// a_k (m).
-    pub fn amplitudes(&self) -> &[f64] {
-        &self.amplitudes
-    }
-
-    /// Σ a_k² (m²), the variance of the field.
-    pub fn variance(&self) -> f64 {
-        self.amplitudes.iter().map(|a| a * a).sum()
-    }
-
-    /// Turns variables `[dimension][point]` into amplitudes `[2 k, 2 k + 1][point]` of cosine and sine,
-    /// in units of a_k.
-    pub fn coefficients(&self, variables: &[f64], points: usize, out: &mut [f64]) {
-        match self.form {
-            FieldForm::Gaussian => out.copy_from_slice(variables),
-            FieldForm::RandomPhase => {
-                let rows = variables
-                    .chunks_exact(points)
-                    .zip(out.chunks_exact_mut(2 * points));
-                for (row, pair) in rows {
-                    let (cosines, sines) = pair.split_at_mut(points);
-                    for ((x, cosine), sine) in row.iter().zip(cosines).zip(sines) {
-                        let (s, c) = (2.0 * PI * probability::cumulative(*x)).sin_cos();
-                        *cosine = SQRT_2 * c;
-                        *sine = -SQRT_2 * s;
-                    }
-                }
-            }
-        }
-    }
-
-    /// Whether the variables are the coefficients themselves.
-    pub fn is_gaussian(&self) -> bool {
-        self.form == FieldForm::Gaussian
+    /// In words.
+    pub fn describe(&self) -> String {
+        self.field().map_or_else(
+            || "no random field".to_owned(),
+            |field| {
+                format!(
+                    "{}, standard deviation {:.6e} m",
+                    field.describe(),
+                    field.variance().sqrt()
+                )
+            },
+        )
     }
 }

@@ -10,13 +10,18 @@
 
 mod deterministic;
 mod field;
+mod halves;
+mod karhunen_loeve;
 mod second_order_filter;
+mod spectral;
 mod synthesis;
 mod tabulated;
 
 pub use deterministic::Deterministic;
-pub use field::{FieldForm, SpectralRepresentation};
+pub use field::{Irregularity, RandomField};
+pub use karhunen_loeve::{KarhunenLoeve, KarhunenLoeveError};
 pub use second_order_filter::{FilterForm, SecondOrderFilter};
+pub use spectral::{GaussianField, RandomPhaseField, SpectralRepresentation};
 pub use synthesis::{Grid, Method, Synthesis};
 pub use tabulated::{Tabulated, TabulatedError};
 

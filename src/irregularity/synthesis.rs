@@ -12,13 +12,11 @@
 //!   by two fast Fourier transforms of any length ≥ K + J − 1.
 
 use super::SpectralRepresentation;
+use super::halves::{self, Halves};
 use rustfft::num_complex::Complex64;
 use rustfft::{Fft, FftPlanner};
 use std::fmt;
 use std::sync::Arc;
-
-/// Points whose sums are formed together: the same for every point, whatever the band or thread.
-const GROUP: usize = 128;
 
 /// Positions x₀ + j δ, j = 0 .. count.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,6 +40,16 @@ impl Grid {
 pub enum Method {
     MatrixProduct,
     ChirpTransform,
+}
+
+impl Method {
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::MatrixProduct => "matrix product",
+            Method::ChirpTransform => "chirp-z transform",
+        }
+    }
 }
 
 /// A field's sums on a grid.
@@ -99,144 +107,54 @@ impl Synthesis {
     }
 
     /// Adds the sums of `points` points to `out` `[point][position]`, from coefficients
-    /// `[2 k, 2 k + 1][point]` of cosine and sine in units of a_k.
+    /// `[2 d, 2 d + 1][point]` of cosine and sine, in units of a_k, of the wavenumber with the d-th
+    /// largest amplitude.
     pub fn add(&self, coefficients: &[f64], points: usize, out: &mut [f64]) {
         debug_assert_eq!(coefficients.len(), 2 * self.wavenumbers * points);
         match &self.kernel {
-            Kernel::Matrix(matrix) => matrix.add(coefficients, points, self.grid.count, out),
+            Kernel::Matrix(matrix) => matrix.add(coefficients, points, out),
             Kernel::Chirp(chirp) => chirp.add(coefficients, points, out, self.grid.count),
         }
     }
 }
 
-/// Cosines and sines of Ω_k d at the distances d ≥ 0 from the grid's middle, times a_k.
+/// Cosines and sines of Ω_k d at the distances d ≥ 0 from the grid's middle, times a_k, by falling a_k.
 struct Matrix {
-    /// a_k cos Ω_k d: `[k][distance]`.
-    even: Vec<f64>,
-    /// a_k sin Ω_k d: `[k][distance]`, without d = 0.
-    odd: Vec<f64>,
-    evens: usize,
-    odds: usize,
+    halves: Halves,
     /// (cos, sin) of Ω_k times the middle's position.
     turn: Vec<(f64, f64)>,
 }
 
 impl Matrix {
     fn new(field: &SpectralRepresentation, grid: Grid) -> Self {
-        let (evens, odds) = (grid.count.div_ceil(2), grid.count / 2);
-        let central = grid.count % 2 == 1;
-        let distance = |j: usize| (j as f64 + if central { 0.0 } else { 0.5 }) * grid.spacing;
+        let (evens, odds) = halves::distances(grid);
         let middle = 0.5 * (grid.position(0) + grid.position(grid.count - 1));
         let (mut even, mut odd, mut turn) = (Vec::new(), Vec::new(), Vec::new());
-        for (k, a) in field.amplitudes().iter().enumerate() {
-            let wavenumber = (k as f64 + 0.5) * field.step();
-            even.extend((0..evens).map(|j| a * (wavenumber * distance(j)).cos()));
-            odd.extend((evens - odds..evens).map(|j| a * (wavenumber * distance(j)).sin()));
+        for k in field.order() {
+            let (a, wavenumber) = (field.amplitudes()[*k], field.wavenumber(*k));
+            even.extend(evens.iter().map(|d| a * (wavenumber * d).cos()));
+            odd.extend(odds.iter().map(|d| a * (wavenumber * d).sin()));
             let (sin, cos) = (wavenumber * middle).sin_cos();
             turn.push((cos, sin));
         }
         Matrix {
-            even,
-            odd,
-            evens,
-            odds,
+            halves: Halves::new(grid, even, odd),
             turn,
         }
     }
 
-    fn add(&self, coefficients: &[f64], points: usize, positions: usize, out: &mut [f64]) {
-        let wavenumbers = self.turn.len();
-        let mut cosines = vec![0.0; wavenumbers * GROUP];
-        let mut sines = vec![0.0; wavenumbers * GROUP];
-        let mut even = vec![0.0; GROUP * self.evens];
-        let mut odd = vec![0.0; GROUP * self.odds];
-        for first in (0..points).step_by(GROUP) {
-            let group = GROUP.min(points - first);
-            self.turned(coefficients, points, first, group, &mut cosines, &mut sines);
-            product(&cosines, &self.even, wavenumbers, self.evens, &mut even);
-            product(&sines, &self.odd, wavenumbers, self.odds, &mut odd);
-            for (point, row) in out
-                .chunks_exact_mut(positions)
-                .skip(first)
-                .take(group)
-                .enumerate()
-            {
-                let even = &even[point * self.evens..(point + 1) * self.evens];
-                let odd = &odd[point * self.odds..(point + 1) * self.odds];
-                join(even, odd, row);
+    fn add(&self, coefficients: &[f64], points: usize, out: &mut [f64]) {
+        self.halves.add(points, out, |first, group, about| {
+            let rows = about.even.zip(about.odd).enumerate();
+            for ((d, (cosines, sines)), (cos, sin)) in rows.zip(&self.turn) {
+                let x = &coefficients[2 * d * points + first..][..group];
+                let y = &coefficients[(2 * d + 1) * points + first..][..group];
+                for (((c, s), x), y) in cosines.iter_mut().zip(sines).zip(x).zip(y) {
+                    *c = x * cos + y * sin;
+                    *s = y * cos - x * sin;
+                }
             }
-        }
-    }
-
-    /// Amplitudes about the middle: `[k][point of the group]`.
-    fn turned(
-        &self,
-        coefficients: &[f64],
-        points: usize,
-        first: usize,
-        group: usize,
-        cosines: &mut [f64],
-        sines: &mut [f64],
-    ) {
-        let rows = cosines
-            .chunks_exact_mut(GROUP)
-            .zip(sines.chunks_exact_mut(GROUP));
-        for ((k, (cos, sin)), (c, s)) in self.turn.iter().enumerate().zip(rows) {
-            let x = &coefficients[2 * k * points + first..][..group];
-            let y = &coefficients[(2 * k + 1) * points + first..][..group];
-            for (((c, s), x), y) in c.iter_mut().zip(s.iter_mut()).zip(x).zip(y) {
-                *c = x * cos + y * sin;
-                *s = y * cos - x * sin;
-            }
-        }
-    }
-}
-
-/// `[point][distance]` = Σ_k left `[k][point]` right `[k][distance]`, for a whole group.
-fn product(left: &[f64], right: &[f64], inner: usize, columns: usize, out: &mut [f64]) {
-    assert!(
-        left.len() >= inner * GROUP
-            && right.len() >= inner * columns
-            && out.len() >= GROUP * columns
-    );
-    // SAFETY: the three matrices lie within their slices, as asserted, with these strides.
-    unsafe {
-        matrixmultiply::dgemm(
-            GROUP,
-            inner,
-            columns,
-            1.0,
-            left.as_ptr(),
-            1,
-            GROUP as isize,
-            right.as_ptr(),
-            columns as isize,
-            1,
-            0.0,
-            out.as_mut_ptr(),
-            columns as isize,
-            1,
-        );
-    }
-}
-
-/// Adds even ± odd on both sides of the middle.
-fn join(even: &[f64], odd: &[f64], row: &mut [f64]) {
-    let half = odd.len();
-    let central = even.len() - half;
-    let (below, above) = row.split_at_mut(half);
-    if central == 1 {
-        above[0] += even[0];
-    }
-    let (even, above) = (&even[central..], &mut above[central..]);
-    for (((above, below), e), o) in above
-        .iter_mut()
-        .zip(below.iter_mut().rev())
-        .zip(even)
-        .zip(odd)
-    {
-        *above += e + o;
-        *below += e - o;
+        });
     }
 }
 
@@ -251,6 +169,8 @@ fn transform_length(least: usize) -> usize {
 
 /// Σ_k c_k e^{i (Ω₁ + k ΔΩ)(x₀ + j δ)} as a convolution with a chirp; c_k = a_k (X_k − i Y_k).
 struct Chirp {
+    /// The place of each wavenumber in the order of the amplitudes.
+    places: Vec<usize>,
     /// a_k e^{i Ω_k x₀} e^{i θ k²/2}, θ = ΔΩ δ.
     before: Vec<Complex64>,
     /// The transform of e^{−i θ m²/2}, over its length.
@@ -274,10 +194,7 @@ impl Chirp {
             .amplitudes()
             .iter()
             .enumerate()
-            .map(|(k, a)| {
-                let wavenumber = (k as f64 + 0.5) * field.step();
-                Complex64::from_polar(*a, wavenumber * grid.start + chirp(k))
-            })
+            .map(|(k, a)| Complex64::from_polar(*a, field.wavenumber(k) * grid.start + chirp(k)))
             .collect();
         let after = (0..grid.count)
             .map(|j| {
@@ -293,7 +210,12 @@ impl Chirp {
             filter[length - m] = Complex64::from_polar(1.0 / length as f64, -chirp(m));
         }
         forward.process(&mut filter);
+        let mut places = vec![0; wavenumbers];
+        for (place, k) in field.order().iter().enumerate() {
+            places[*k] = place;
+        }
         Chirp {
+            places,
             before,
             filter,
             after,
@@ -311,9 +233,10 @@ impl Chirp {
         let mut scratch = vec![Complex64::ZERO; space];
         for (point, row) in out.chunks_exact_mut(positions).enumerate() {
             buffer[self.before.len()..].fill(Complex64::ZERO);
-            for (k, (value, before)) in buffer.iter_mut().zip(&self.before).enumerate() {
-                let x = coefficients[2 * k * points + point];
-                let y = coefficients[(2 * k + 1) * points + point];
+            let terms = buffer.iter_mut().zip(&self.before).zip(&self.places);
+            for ((value, before), place) in terms {
+                let x = coefficients[2 * place * points + point];
+                let y = coefficients[(2 * place + 1) * points + point];
                 *value = before * Complex64::new(x, -y);
             }
             self.forward.process_with_scratch(&mut buffer, &mut scratch);

@@ -21,6 +21,7 @@ mod rank_one;
 mod sobol;
 mod stratified;
 mod subspaces;
+mod unit_vectors;
 
 pub use error::RuleError;
 pub use gf_discrepancy::GfDiscrepancy;
@@ -34,6 +35,7 @@ pub use permutation::Permutation;
 pub use rank_one::RankOneLattice;
 pub use sobol::Sobol;
 pub use stratified::PartiallyStratified;
+pub use unit_vectors::UnitVectors;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

@@ -7,7 +7,10 @@ use super::{
 };
 use crate::density::{self, Smoothing};
 use crate::integrate::Integrator;
-use crate::irregularity::{self, FieldForm, Grid, SecondOrderFilter};
+use crate::irregularity::{
+    self, GaussianField, Grid, KarhunenLoeve, KarhunenLoeveError, RandomField, RandomPhaseField,
+    SecondOrderFilter, SpectralRepresentation,
+};
 use crate::probability::{
     GfDiscrepancy, LatinHypercube, LatinizedPartiallyStratified, MidpointGrid, MomentMatched,
     MonteCarlo, PartiallyStratified, PointRule, RankOneLattice, RuleError, Sobol,
@@ -79,15 +82,6 @@ impl SecondOrderFilterSpec {
                 FilterForm::Corrected => irregularity::FilterForm::Corrected,
                 FilterForm::Printed => irregularity::FilterForm::Printed,
             },
-        }
-    }
-}
-
-impl FieldKind {
-    pub fn build(self) -> FieldForm {
-        match self {
-            FieldKind::Gaussian => FieldForm::Gaussian,
-            FieldKind::RandomPhase => FieldForm::RandomPhase,
         }
     }
 }
@@ -209,6 +203,48 @@ impl Scenario {
             spacing: spec.spacing,
             count,
         })
+    }
+
+    /// The random field of a spectrum on a grid.
+    ///
+    /// # Errors
+    /// A Karhunen-Loeve expansion that takes too long, or of no variance.
+    pub fn random_field(
+        &self,
+        spec: &IrregularitySpec,
+        spectrum: SpectralRepresentation,
+        grid: Grid,
+    ) -> Result<Box<dyn RandomField>> {
+        let terms = spec.terms.map(|terms| terms as usize);
+        match spec.field {
+            FieldKind::Gaussian => Ok(Box::new(GaussianField::new(spectrum, grid))),
+            FieldKind::RandomPhase => Ok(Box::new(RandomPhaseField::new(spectrum, grid))),
+            FieldKind::KarhunenLoeve => match KarhunenLoeve::new(&spectrum, grid, terms) {
+                Ok(field) => Ok(Box::new(field)),
+                Err(error) => Err(self.no_expansion(error).into()),
+            },
+        }
+    }
+
+    fn no_expansion(&self, error: KarhunenLoeveError) -> BadInput {
+        let found = error.to_string();
+        match error {
+            KarhunenLoeveError::NoVariance => self.bad(
+                "irregularity.spectrum",
+                "a density above zero somewhere up to irregularity.wavenumber.max",
+                found,
+            ),
+            KarhunenLoeveError::TooManyTerms { .. }
+            | KarhunenLoeveError::TooManyPositions { .. } => self
+                .bad(
+                    "irregularity.field",
+                    "an expansion that takes some seconds",
+                    found,
+                )
+                .remedy(
+                    "make irregularity.length or wavenumber.max smaller or the spacing larger, or take the field \"gaussian\"",
+                ),
+        }
     }
 
     /// Bridge, vehicle and simulation as one crossing, and the quantities to record.

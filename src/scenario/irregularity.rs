@@ -19,6 +19,9 @@ pub struct IrregularitySpec {
     /// How the random field is represented.
     #[serde(default)]
     pub field: FieldKind,
+    /// Number of terms of the field `karhunen-loeve`, at most. By default all until 1e-12 of the variance is left.
+    #[schemars(range(min = 1))]
+    pub terms: Option<u32>,
     /// Profile that every representative point has, alone or below the random field.
     pub deterministic: Option<DeterministicSpec>,
     /// Position where the irregularity starts, the bridge's first end being 0 (m). By default the vehicle's place at
@@ -133,6 +136,20 @@ pub enum FieldKind {
     Gaussian,
     /// A fixed amplitude and a random phase a wavenumber.
     RandomPhase,
+    /// A normal amplitude for each principal function of the grid's covariance, the strongest first: a Gaussian field
+    /// of few variables.
+    KarhunenLoeve,
+}
+
+impl FieldKind {
+    /// The field's name in a scenario.
+    pub fn name(self) -> &'static str {
+        match self {
+            FieldKind::Gaussian => "gaussian",
+            FieldKind::RandomPhase => "random-phase",
+            FieldKind::KarhunenLoeve => "karhunen-loeve",
+        }
+    }
 }
 
 /// A profile that is the same at every representative point.
@@ -206,6 +223,15 @@ impl Table for IrregularitySpec {
             }
             (Some(_), None, _) => return Err(scenario.missing("irregularity.wavenumber")),
             (None, None, Some(_)) | (Some(_), Some(_), _) => {}
+        }
+        if self.terms.is_some() && self.field != FieldKind::KarhunenLoeve {
+            return Err(scenario
+                .bad(
+                    "irregularity.terms",
+                    "no such key unless field = \"karhunen-loeve\"",
+                    format!("field = \"{}\"", self.field.name()),
+                )
+                .remedy("leave it out or change the field"));
         }
         if self.spacing > self.length {
             return Err(scenario.bad(

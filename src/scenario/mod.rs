@@ -63,7 +63,7 @@ pub use random::{
     RandomSpec, RowsKind, TableSpec, TruncatedNormalSpec, UniformSpec, WeibullSpec,
 };
 pub use reliability::{LimitKind, LimitSpec, ReliabilitySpec};
-pub use schema::{ScenarioSpec, json_schema};
+pub use schema::{ScenarioSpec, is_key, json_schema};
 pub use simulation::{Compression, InitialState, IntegratorKind, Precision, SimulationSpec};
 pub use suggestion::nearest;
 pub use varied::VARIED_KEYS;

@@ -30,7 +30,7 @@ pub struct PointsSpec {
     #[serde(default)]
     pub moment_matching: u32,
     /// Number of leading standard normals that are kept for each point, those of the random parameters first; by
-    /// default these and 50 of the irregularity. At most all that there are.
+    /// default these and 64 of the irregularity. At most all that there are.
     pub variables: Option<u32>,
     /// Seed of the random numbers. The same seed gives the same bytes. Of no effect on `gf-discrepancy` and `grid`.
     #[serde(default = "default_seed")]
@@ -206,7 +206,7 @@ impl Scenario {
         irregularity: &IrregularitySpec,
     ) -> Result<()> {
         match (points.truncate_at, irregularity.field) {
-            (None, _) | (Some(_), FieldKind::Gaussian) => Ok(()),
+            (None, _) | (Some(_), FieldKind::Gaussian | FieldKind::KarhunenLoeve) => Ok(()),
             (Some(_), FieldKind::RandomPhase) => Err(self
                 .bad(
                     "points.truncate_at",

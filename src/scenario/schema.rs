@@ -55,6 +55,11 @@ pub(super) fn shared() -> &'static Value {
     &SCHEMA
 }
 
+/// Whether a scenario may have this key (`bridge.span`), whatever the kinds of its tables are.
+pub fn is_key(key: &str) -> bool {
+    knows(&key.split('.').collect::<Vec<_>>())
+}
+
 /// Whether a scenario may have a key at `path`, whatever the kinds of its tables are.
 pub(super) fn knows(path: &[&str]) -> bool {
     fn below(schema: &Value, path: &[&str]) -> bool {

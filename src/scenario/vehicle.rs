@@ -73,6 +73,19 @@ pub struct QuarterCarSpec {
 }
 
 impl QuarterCarSpec {
+    /// The key that makes the vehicle nonlinear, where one does.
+    pub fn nonlinear_key(&self) -> Option<&'static str> {
+        if self.bump_stop.is_some() {
+            Some("vehicle.bump_stop")
+        } else if self.suspension_cubic_stiffness != 0.0 {
+            Some("vehicle.suspension_cubic_stiffness")
+        } else if self.suspension_quadratic_damping != 0.0 {
+            Some("vehicle.suspension_quadratic_damping")
+        } else {
+            None
+        }
+    }
+
     /// Linear damping of the suspension (N s/m): as given, or from the ratio, c = 2 zeta sqrt(m k), with the body's mass m.
     pub fn suspension_damping(&self) -> f64 {
         let from_ratio =

@@ -9,7 +9,7 @@ use crate::harness::Folder;
 use dpim::files::tables::{MomentsRow, read_moments, read_reliability};
 
 /// Quantity, time (s), mean, standard deviation (m, m/s2).
-const EXACT: [(&str, f64, f64, f64); 6] = [
+pub const EXACT: [(&str, f64, f64, f64); 6] = [
     (
         "bridge/midspan/displacement",
         0.7,
@@ -34,7 +34,7 @@ const EXACT: [(&str, f64, f64, f64); 6] = [
 ];
 
 /// The pipeline's scenario in a folder.
-fn folder() -> Folder {
+pub fn folder() -> Folder {
     let folder = Folder::new();
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/pipelines/quarter-car.toml");
     folder.write("scenario.toml", std::fs::read(path).unwrap());
@@ -53,7 +53,7 @@ fn moments(folder: &Folder, options: &str) -> Vec<MomentsRow> {
     read_moments(&folder.path("moments.parquet")).unwrap().rows
 }
 
-fn row<'a>(rows: &'a [MomentsRow], quantity: &str, time: f64) -> &'a MomentsRow {
+pub fn row<'a>(rows: &'a [MomentsRow], quantity: &str, time: f64) -> &'a MomentsRow {
     rows.iter()
         .find(|row| row.quantity == quantity && (row.time - time).abs() < 1e-9)
         .unwrap_or_else(|| panic!("no {quantity} at {time} s"))

@@ -16,6 +16,8 @@ use std::sync::Arc;
 /// A points file as pandas writes it: lists of equal length, snappy, dictionaries, `df.attrs`.
 pub struct Points {
     pub probability: Option<Vec<f64>>,
+    /// The name of a column of numbers.
+    pub parameter: &'static str,
     /// The name of the column with the heights; none for no such column.
     pub column: Option<&'static str>,
     /// `[point][position]`, m.
@@ -33,6 +35,7 @@ impl Points {
         let positions = 81;
         Points {
             probability: Some(vec![1.0 / count as f64; count]),
+            parameter: "roughness_class",
             column: Some("vertical"),
             heights: vec![0.0; count * positions],
             positions,
@@ -53,7 +56,7 @@ impl Points {
         }
         let rows = self.heights.len() / self.positions;
         columns.push((
-            "roughness_class",
+            self.parameter,
             Arc::new(Float64Array::from(vec![2.0; rows])),
         ));
         for (key, values) in &self.parameters {

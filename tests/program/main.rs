@@ -14,4 +14,5 @@ mod foreign;
 mod growth;
 mod harness;
 mod interruption;
+mod pseudo_excitation;
 mod random;

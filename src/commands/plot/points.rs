@@ -2,6 +2,7 @@
 
 use super::{Axis, Image, page};
 use crate::cli;
+use crate::commands::responses::check_representative;
 use crate::commands::{Context, bad_file, excite};
 use crate::files::points::{PointsReader, ReadHeader};
 use crate::plot::{IrregularitySamples, Periodogram, Spectrum};
@@ -82,6 +83,11 @@ pub(super) fn samples(args: &cli::Plot) -> Result<Image> {
 pub(super) fn periodogram(context: &Context, args: &cli::Plot) -> Result<Image> {
     let reader = PointsReader::open(&args.input)?;
     let header = reader.header();
+    check_representative(
+        &args.input.display().to_string(),
+        header.weights,
+        "for a periodogram excite without --pseudo-excitation",
+    )?;
     let no_target = |found: &str| {
         bad_file(
             &args.input,

@@ -3,7 +3,7 @@
 use super::{Axis, Image, chosen, page, value_axis};
 use crate::Result;
 use crate::cli;
-use crate::commands::responses::Source;
+use crate::commands::responses::{Source, check_representative};
 use crate::density::{Grid, Options, Smoothing, estimate};
 use crate::files::recording::Recordings;
 use crate::plot::{Fan, Statistics};
@@ -13,6 +13,11 @@ const DRAWN: usize = 1000;
 
 pub(super) fn fan(args: &cli::Plot) -> Result<Image> {
     let recordings = Recordings::open(std::slice::from_ref(&args.input))?;
+    check_representative(
+        &recordings.place(),
+        recordings.weights(),
+        "make a density table of it and draw that",
+    )?;
     let names: Vec<&str> = recordings
         .quantities()
         .iter()

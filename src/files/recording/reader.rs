@@ -181,7 +181,8 @@ impl Recordings {
         &self.notes
     }
 
-    fn place(&self) -> String {
+    /// The files, as errors show them.
+    pub fn place(&self) -> String {
         let names: Vec<String> = self
             .members
             .iter()

@@ -227,12 +227,12 @@ const MOMENTS: &[Column] = &[
     number(
         "smoothing_width",
         Unit::Quantity,
-        "standard deviation of the smoothing kernel; by density evolution that of one point's probability, smoothed by the mesh",
+        "standard deviation of the smoothing kernel; by density evolution that of one point's probability, smoothed by the mesh; 0 for the exact densities of a pseudo-excitation",
     ),
     number(
         "effective_count",
         ONE,
-        "effective number of points, (sum of weights)^2 / sum of squared weights",
+        "effective number of points, (sum of weights)^2 / sum of squared weights; of a pseudo-excitation the effective number of harmonics, (sum of squares)^2 / sum of fourth powers of their responses",
     ),
 ];
 

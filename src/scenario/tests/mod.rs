@@ -148,10 +148,12 @@ of = "parameters"
 "#;
 
 /// Overrides of `FULL` to the kinds that it has not.
-const KINDS: [&str; 3] = [
+const KINDS: [&str; 5] = [
     r#"irregularity.deterministic={ kind = "sine", amplitude = 0.001, wavelength = 10, phase = 0.5 }"#,
     r#"density.smoothing={ rule = "normal-reference" }"#,
     r#"exact.case={ kind = "duffing", natural_frequency = 2, damping_ratio = 0.05, cubic = 10, intensity = 0.01 }"#,
+    "irregularity.field=karhunen-loeve",
+    "irregularity.terms=50",
 ];
 
 #[test]

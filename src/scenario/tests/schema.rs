@@ -154,7 +154,11 @@ fn every_choice_is_one_that_serde_knows() {
                     let rule: RuleKind = serde_json::from_value(json).unwrap();
                     assert_eq!(rule.name(), choice);
                 }
-                ".irregularity.field" => read::<FieldKind>(json),
+                ".irregularity.field" => {
+                    read::<FieldKind>(json.clone());
+                    let field: FieldKind = serde_json::from_value(json).unwrap();
+                    assert_eq!(field.name(), choice);
+                }
                 ".irregularity.spectrum.form" => read::<FilterForm>(json),
                 ".irregularity.spectrum.sided" => read::<Sided>(json),
                 ".irregularity.spectrum.unit" => read::<WavenumberUnit>(json),
@@ -174,5 +178,5 @@ fn every_choice_is_one_that_serde_knows() {
             }
         }
     }
-    assert_eq!(count, 45);
+    assert_eq!(count, 46);
 }
