@@ -36,8 +36,10 @@ impl PointRule for UnitVectors {
         let width = points.len();
         out.fill(0.0);
         for (place, point) in points.enumerate() {
-            if let Some(dimension) = point.checked_sub(1) {
-                out[dimension * width + place] = 1.0;
+            let dimension = point.checked_sub(1);
+            // Of the leading variables alone, points of later dimensions are at the origin.
+            if let Some(one) = dimension.and_then(|d| out.get_mut(d * width + place)) {
+                *one = 1.0;
             }
         }
     }
