@@ -2,6 +2,7 @@
 
 use super::Context;
 use super::responses::{self, Source};
+use super::smoothing::{self, Prepared};
 use crate::Result;
 use crate::cli;
 use crate::density::{Moments, Options, TimeDensity, estimate};
@@ -16,12 +17,19 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
             .iter()
             .map(|path| ("--moments", path.as_path())),
     );
-    super::check_distinct(&args.scenario.inputs(&args.recordings), &outputs)?;
+    let mut inputs = args.scenario.inputs(&args.recordings);
+    inputs.extend(args.points.as_deref());
+    super::check_distinct(&inputs, &outputs)?;
     let (recordings, scenario) = responses::open(context, &args.recordings, &args.scenario)?;
     let spec = scenario.density()?;
     let wanted = responses::chosen(&recordings, &scenario, spec.quantities.as_deref())?;
+    let points = args.points.as_deref();
+    let Prepared {
+        smoother,
+        scenario,
+        points,
+    } = smoothing::prepare(context, &recordings, scenario, spec.smoothing, points)?;
     let options = Options {
-        smoothing: spec.smoothing.build(),
         points_per_time: spec.points_per_time as usize,
         grid: spec.grid.build(),
     };
@@ -29,9 +37,9 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
         "{} points, {} times, smoothing by {}",
         recordings.points(),
         recordings.times().len(),
-        options.smoothing.name()
+        smoother.smoothing().name()
     ));
-    let stamp = |kind| responses::stamp(kind, &recordings, &scenario);
+    let stamp = |kind| responses::stamp(kind, &recordings, &scenario, points.clone());
     let clobber = !args.output.no_clobber;
     let units = responses::units(&recordings);
     let output = OutputFile::create(&args.output.output, clobber)?;
@@ -61,7 +69,7 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
             recordings: &recordings,
             times: recordings.times_of(*first),
         };
-        estimate(&source, &quantities, options, |result| {
+        estimate(&source, &quantities, &smoother, options, |result| {
             bar.inc(1);
             tables.append(source.times[result.time], &result)
         })?;

@@ -56,6 +56,7 @@ pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
         components: vec!["vertical".to_owned()],
         parameters: Vec::new(),
         variables: 0,
+        dimensions: Some(dimensions),
         provenance: Provenance::stamp(
             Kind::Points,
             Some(scenario.text()),

@@ -10,21 +10,37 @@
 //! Source: G. H. Chen, D. X. Yang, Comput. Methods Appl. Mech. Eng. 357 (2019) 112612. The smoothing
 //! adds σ² to the variance and, to leading order, σ² p″/2 to the density.
 //!
+//! Other rules of smoothing keep the variance ([`Smoothing::VarianceCorrected`]) or spread the probability of
+//! each point over the image of its own cell ([`Smoothing::CellImage`]).
+//!
 //! Up to [`EXACT_POINTS`] points the sum runs over the points themselves; more are first shared
 //! among bins a sixth of σ wide (linear binning, whose variance is taken off the kernel's), so that
-//! memory does not grow with the number of points.
+//! memory does not grow with the number of points. Rules that ask for each point's own cell need all
+//! points of a time at once: they work in windows of times.
 
+mod automatic;
 mod bins;
+mod cell_image;
 mod cells;
 mod estimate;
+mod fourier;
+mod gaussians;
 mod kernel;
+mod known;
+mod rule;
+mod sheather_jones;
+mod smoother;
 mod smoothing;
 mod statistics;
 
+pub use automatic::{Choice, choose};
 pub use bins::Bins;
 pub use estimate::{EXACT_POINTS, Grid, Options, TimeDensity, estimate};
 pub use kernel::{Curve, Nodes, smooth};
-pub use smoothing::{Smoothing, Spread};
+pub use known::KnownPoints;
+pub use sheather_jones::sheather_jones;
+pub use smoother::{Smoother, SmoothingError};
+pub use smoothing::{CellKernel, Smoothing, Spread, WidthRule};
 pub use statistics::{LEVELS, Moments, PowerSums, Weighted};
 
 #[cfg(test)]

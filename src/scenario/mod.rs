@@ -42,7 +42,10 @@ use toml_edit::{Document, DocumentMut};
 use crate::{BadInput, Error, Result};
 
 pub use bridge::{BridgeSpec, SectionSpec};
-pub use density::{DensitySpec, FactorSpec, FixedSpec, GridKind, SmoothingSpec};
+pub use density::{
+    CellImageSpec, CellKernelKind, DensitySpec, FactorSpec, FixedSpec, GridKind, SmoothingSpec,
+    WidthRuleSpec,
+};
 pub use irregularity::{
     DeterministicSpec, FieldKind, FilterForm, IrregularitySpec, ProfileSpec, SecondOrderFilterSpec,
     Sided, SineSpec, SpectrumSpec, SpectrumTableSpec, WavenumberSpec, WavenumberUnit,

@@ -79,6 +79,7 @@ fn the_specs_and_the_schema_have_the_same_keys() {
             r#"density.smoothing={ rule = "factor" }"#,
             r#"reliability.smoothing={ rule = "fixed", width = 1 }"#,
         ]),
+        kinds(&[r#"density.smoothing={ rule = "cell-image" }"#]),
     ] {
         let specs = serde_json::to_value(scenario.check_all().unwrap()).unwrap();
         keys("", &specs, &mut in_specs);
