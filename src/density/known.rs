@@ -73,6 +73,17 @@ impl Scale {
         }
     }
 
+    /// The mean of the coordinate between two of them.
+    pub fn mean_between(self, from: f64, to: f64) -> f64 {
+        match self {
+            Scale::Uniform => 0.5 * (from + to),
+            Scale::Normal => {
+                (probability::density(from) - probability::density(to))
+                    / (probability::cumulative(to) - probability::cumulative(from))
+            }
+        }
+    }
+
     /// The coordinates' range.
     pub fn ends(self) -> [f64; 2] {
         match self {

@@ -11,7 +11,7 @@
 //!   0.6 max(|Δg|, |Δ²g|/2), Δg and Δ²g across the cell.
 //! * A few ([`CellSpace`]): a weighted quadratic through each point on its neighbours. A fine grid
 //!   over the space, each part belonging to the nearest point: the image of a part is a trapezoid, the sum
-//!   of two uniform variables, by the quadratic's value and slopes at its middle.
+//!   of two uniform variables, by the quadratic's value and slopes at the part's mean.
 //!
 //! Both take the variables' scale ([`Scale`](super::known::Scale), u or x for each variable) on which the
 //! quadratics foretell the responses of further neighbours best, at each time anew.

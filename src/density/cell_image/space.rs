@@ -27,7 +27,7 @@ struct OnScales {
     quadratics: Quadratics,
     /// Half a part's extent on each axis.
     half: Vec<f64>,
-    /// Of each part the nearest point, the distance of the part's middle from it, the probability.
+    /// Of each part the nearest point, the distance of the part's mean from it, the probability.
     nearest: Vec<u32>,
     distance: Vec<f64>,
     mass: Vec<f64>,
@@ -86,7 +86,7 @@ impl OnScales {
             .for_each_init(Vec::new, |found, (part, ((nearest, mass), distance))| {
                 let mut rest = part;
                 for (place, axis) in distance.iter_mut().zip(&axes) {
-                    *place = axis.middle(rest % along);
+                    *place = axis.means[rest % along];
                     *mass *= axis.masses[rest % along];
                     rest /= along;
                 }
@@ -146,10 +146,10 @@ fn value_and_slopes(
     (value, slopes)
 }
 
-/// An axis in equal parts on its scale.
+/// An axis in equal parts on its scale: of each the mean coordinate and the probability.
 struct Axis {
-    start: f64,
     spacing: f64,
+    means: Vec<f64>,
     masses: Vec<f64>,
 }
 
@@ -157,19 +157,18 @@ impl Axis {
     fn new(scale: Scale, parts: usize) -> Self {
         let [start, end] = scale.ends();
         let spacing = (end - start) / parts as f64;
-        let below = |part: usize| scale.share(start + part as f64 * spacing);
+        let edge = |part: usize| start + part as f64 * spacing;
+        let below = |part: usize| scale.share(edge(part));
         let total = below(parts) - below(0);
         Axis {
-            start,
             spacing,
+            means: (0..parts)
+                .map(|part| scale.mean_between(edge(part), edge(part + 1)))
+                .collect(),
             masses: (0..parts)
                 .map(|part| (below(part + 1) - below(part)) / total)
                 .collect(),
         }
-    }
-
-    fn middle(&self, part: usize) -> f64 {
-        self.start + (part as f64 + 0.5) * self.spacing
     }
 }
 

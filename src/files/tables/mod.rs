@@ -214,7 +214,7 @@ const MOMENTS: &[Column] = &[
     number(
         "smoothing_width",
         Unit::Quantity,
-        "standard deviation of the smoothing kernel",
+        "standard deviation of the smoothing kernel (of several: their mean); 0 without one",
     ),
     number(
         "effective_count",

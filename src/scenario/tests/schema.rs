@@ -149,11 +149,12 @@ fn every_choice_is_one_that_serde_knows() {
                 ".simulation.initial_state" => read::<InitialState>(json),
                 ".simulation.precision" => read::<Precision>(json),
                 ".simulation.compression" => read::<Compression>(json),
+                ".density.smoothing.kernel" => read::<CellKernelKind>(json),
                 ".density.grid" => read::<GridKind>(json),
                 ".reliability.limit.kind" => read::<LimitKind>(json),
                 other => panic!("{other} is not tested here"),
             }
         }
     }
-    assert_eq!(count, 27);
+    assert_eq!(count, 29);
 }
