@@ -131,6 +131,9 @@ pub struct Density {
     pub recordings: Vec<PathBuf>,
     #[command(flatten)]
     pub output: OutputArgs,
+    /// The points file that was simulated, for rules of smoothing that know the points' variables
+    #[arg(long, value_name = "POINTS.parquet")]
+    pub points: Option<PathBuf>,
     /// Also write moments and quantiles of every quantity and time
     #[arg(long, value_name = "FILE")]
     pub moments: Option<PathBuf>,

@@ -4,8 +4,9 @@ mod evolution;
 
 use super::Context;
 use super::responses::{self, Source};
+use super::smoothing;
 use crate::cli;
-use crate::density::{Moments, Options, TimeDensity, estimate, pseudo_excitation};
+use crate::density::{Moments, Options, Smoother, TimeDensity, estimate, pseudo_excitation};
 use crate::files::recording::{Axis, Recordings};
 use crate::files::tables::{DensityWriter, MomentsRow, MomentsWriter};
 use crate::files::{Kind, OutputFile, Weights};
@@ -19,7 +20,9 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
             .iter()
             .map(|path| ("--moments", path.as_path())),
     );
-    super::check_distinct(&args.scenario.inputs(&args.recordings), &outputs)?;
+    let mut inputs = args.scenario.inputs(&args.recordings);
+    inputs.extend(args.points.as_deref());
+    super::check_distinct(&inputs, &outputs)?;
     let (recordings, mut scenario) = responses::open(context, &args.recordings, &args.scenario)?;
     if let Some(method) = args.method {
         // In the scenario, so that the outputs tell it.
@@ -28,31 +31,35 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
     let spec = scenario.density()?;
     let wanted = responses::chosen(&recordings, &scenario, spec.quantities.as_deref())?;
     let options = Options {
-        smoothing: spec.smoothing.build(),
         points_per_time: spec.points_per_time as usize,
         grid: spec.grid.build(),
     };
+    let mut points = None;
     let how = match (recordings.weights(), spec.method) {
         (Weights::Harmonics, MethodKind::DirectIntegral) => {
             check_linear(&recordings, &wanted)?;
-            "exact normal densities by pseudo-excitation".to_owned()
+            How::Normal
         }
         (Weights::Harmonics, MethodKind::DensityEvolution) => {
             return Err(harmonics_have_their_own(&recordings).into());
         }
         (Weights::Assigned | Weights::Importance, MethodKind::DirectIntegral) => {
-            format!("smoothing by {}", options.smoothing.name())
+            let path = args.points.as_deref();
+            let prepared =
+                smoothing::prepare(context, &recordings, scenario, spec.smoothing, path)?;
+            scenario = prepared.scenario;
+            points = prepared.points;
+            How::Smoothed(prepared.smoother)
         }
-        (Weights::Assigned | Weights::Importance, MethodKind::DensityEvolution) => {
-            "density evolution".to_owned()
-        }
+        (Weights::Assigned | Weights::Importance, MethodKind::DensityEvolution) => How::Evolution,
     };
     context.detail(format!(
-        "{} points, {} times, {how}",
+        "{} points, {} times, {}",
         recordings.points(),
         recordings.times().len(),
+        how.describe(),
     ));
-    let stamp = |kind| responses::stamp(kind, &recordings, &scenario);
+    let stamp = |kind| responses::stamp(kind, &recordings, &scenario, points.clone());
     let clobber = !args.output.no_clobber;
     let units = responses::units(&recordings);
     let output = OutputFile::create(&args.output.output, clobber)?;
@@ -71,42 +78,40 @@ pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
             None => None,
         },
         still: Vec::new(),
+        residuals: Vec::new(),
         node: Vec::new(),
     };
     let bar = context.progress("density", (wanted.len() * recordings.times().len()) as u64);
-    match spec.method {
-        MethodKind::DirectIntegral => {
-            for quantities in responses::by_axis(&recordings, wanted) {
-                let Some(first) = quantities.first() else {
-                    continue;
-                };
-                let source = Source {
-                    recordings: &recordings,
-                    times: recordings.times_of(*first),
-                };
-                let take = |result: TimeDensity| {
-                    bar.inc(1);
-                    tables.append(source.times[result.time], &result)
-                };
-                match recordings.weights() {
-                    Weights::Assigned | Weights::Importance => {
-                        estimate(&source, &quantities, options, take)?;
-                    }
-                    Weights::Harmonics => {
-                        let (nodes, grid) = (options.points_per_time, options.grid);
-                        pseudo_excitation(&source, &quantities, nodes, grid, take)?;
-                    }
-                }
+    if let How::Evolution = how {
+        let evolution = evolution::Evolution {
+            context,
+            recordings: &recordings,
+            scenario: &scenario,
+            spec: &spec,
+        };
+        evolution.run(&wanted, &mut tables, &bar)?;
+        bar.finish_and_clear();
+        return tables.finish(context);
+    }
+    for quantities in responses::by_axis(&recordings, wanted) {
+        let Some(first) = quantities.first() else {
+            continue;
+        };
+        let source = Source {
+            recordings: &recordings,
+            times: recordings.times_of(*first),
+        };
+        let take = |result: TimeDensity| {
+            bar.inc(1);
+            tables.append(source.times[result.time], &result)
+        };
+        match &how {
+            How::Smoothed(smoother) => estimate(&source, &quantities, smoother, options, take)?,
+            How::Normal => {
+                let (nodes, grid) = (options.points_per_time, options.grid);
+                pseudo_excitation(&source, &quantities, nodes, grid, take)?;
             }
-        }
-        MethodKind::DensityEvolution => {
-            let evolution = evolution::Evolution {
-                context,
-                recordings: &recordings,
-                scenario: &scenario,
-                spec: &spec,
-            };
-            evolution.run(&wanted, &mut tables, &bar)?;
+            How::Evolution => {}
         }
     }
     bar.finish_and_clear();
@@ -127,6 +132,25 @@ fn check_linear(recordings: &Recordings, wanted: &[usize]) -> Result<()> {
         )
         .remedy("name others in density.quantities, or excite without --pseudo-excitation")
         .into()),
+    }
+}
+
+/// How densities are made.
+enum How {
+    /// A smoothed sum over the points.
+    Smoothed(Smoother),
+    /// Normal densities from the responses to harmonics.
+    Normal,
+    Evolution,
+}
+
+impl How {
+    fn describe(&self) -> String {
+        match self {
+            How::Smoothed(smoother) => format!("smoothing by {}", smoother.smoothing().name()),
+            How::Normal => "exact normal densities by pseudo-excitation".to_owned(),
+            How::Evolution => "density evolution".to_owned(),
+        }
     }
 }
 
@@ -151,12 +175,16 @@ struct Tables<'a> {
     moments: Option<MomentsWriter>,
     /// (quantity, time) without spread.
     still: Vec<(usize, f64)>,
+    /// The residuals of control variates: (quantity, time, residual).
+    residuals: Vec<(usize, f64, f64)>,
     node: Vec<f64>,
 }
 
 impl Tables<'_> {
     fn append(&mut self, time: f64, result: &TimeDensity) -> Result<()> {
         self.append_moments(time, result)?;
+        let residual = result.residual.map(|r| (result.quantity, time, r));
+        self.residuals.extend(residual);
         let name = &self.recordings.quantities()[result.quantity].name;
         let Some(curve) = &result.curve else {
             self.still.push((result.quantity, time));
@@ -190,6 +218,13 @@ impl Tables<'_> {
                     "{}: no spread at {} time(s) from {first} to {last} s: no density there",
                     quantity.name,
                     times.len()
+                ));
+            }
+            let residuals = self.residuals.iter().filter(|r| r.0 == k);
+            if let Some((_, time, worst)) = residuals.max_by(|a, b| a.2.total_cmp(&b.2)) {
+                context.note(format!(
+                    "{}: the regression leaves at most {worst:.1e} of the variance, at {time} s",
+                    quantity.name
                 ));
             }
         }

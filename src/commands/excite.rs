@@ -46,6 +46,7 @@ pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
         components: vec!["vertical".to_owned()],
         parameters: chosen.leading.columns(),
         variables: chosen.leading.variables,
+        dimensions: Some(rule.dimensions()),
         provenance: Provenance::stamp(
             Kind::Points,
             Some(scenario.text()),

@@ -15,6 +15,7 @@ mod reliability;
 mod responses;
 mod schema;
 mod simulate;
+mod smoothing;
 
 use crate::cli::{Cli, Command, General, OptionalScenarioArgs, ScenarioArgs};
 use crate::scenario::Scenario;

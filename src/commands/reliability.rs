@@ -31,7 +31,7 @@ pub(super) fn run(context: &Context, args: &cli::Reliability) -> Result<()> {
         confidence: spec.confidence,
         points_per_time: scenario.density()?.points_per_time as usize,
     };
-    let stamp = |kind| responses::stamp(kind, &recordings, &scenario);
+    let stamp = |kind| responses::stamp(kind, &recordings, &scenario, None);
     let units: Units = limits
         .iter()
         .map(|limit| {

@@ -118,12 +118,18 @@ pub(super) fn units(recordings: &Recordings) -> Units {
         .collect()
 }
 
-/// The stamp of a table made from recordings.
-pub(super) fn stamp(kind: Kind, recordings: &Recordings, scenario: &Scenario) -> Provenance {
+/// The stamp of a table made from recordings, and from their points where those were used.
+pub(super) fn stamp(
+    kind: Kind,
+    recordings: &Recordings,
+    scenario: &Scenario,
+    points: Option<String>,
+) -> Provenance {
     let stamps = || recordings.members().map(|member| member.provenance);
-    let inputs: Vec<String> = stamps()
+    let mut inputs: Vec<String> = stamps()
         .map(|stamp| stamp.map(|p| p.identity.clone()).unwrap_or_default())
         .collect();
+    inputs.extend(points);
     let seed = stamps().find_map(|stamp| stamp.and_then(|p| p.seed));
     Provenance::stamp(kind, Some(scenario.text()), seed, &inputs, &[])
 }

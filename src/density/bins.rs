@@ -53,6 +53,15 @@ impl Bins {
             .map(|(j, mass)| (self.origin + j as f64 * self.spacing, *mass))
     }
 
+    /// The same masses, their distances from a centre drawn in to a share of them.
+    pub fn drawn_in(&self, centre: f64, share: f64) -> Self {
+        Bins {
+            origin: centre + share * (self.origin - centre),
+            spacing: share * self.spacing,
+            masses: self.masses.clone(),
+        }
+    }
+
     /// The kernel's width that, with the variance of the sharing, makes σ.
     pub fn kernel_width(&self, width: f64) -> f64 {
         let square = width * width - self.spacing * self.spacing / 6.0;

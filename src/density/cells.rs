@@ -1,7 +1,9 @@
 //! The responses of quantities at times, collected from a stream of blocks: point by point where
-//! they are few, in bins where they are many, as much at a time as memory holds.
+//! they are few or the rule of smoothing needs them so, in bins where they are many, as much at a time
+//! as memory holds.
 
 use super::estimate::{EXACT_POINTS, Options};
+use super::rule::Rule;
 use super::{Bins, PowerSums};
 use crate::Result;
 use crate::response::{Block, Responses};
@@ -34,6 +36,7 @@ pub(super) enum Samples {
 pub(super) struct Estimator<'a> {
     pub source: &'a dyn Responses,
     pub quantities: &'a [usize],
+    pub rule: &'a dyn Rule,
     pub options: Options,
     pub effective_count: f64,
 }
@@ -46,7 +49,7 @@ impl Estimator<'_> {
         mut work: impl FnMut(&Self, usize, &[Cell]) -> Result<()>,
     ) -> Result<()> {
         let points = self.source.probability().len();
-        if points <= EXACT_POINTS {
+        if points <= EXACT_POINTS || self.rule.needs_points() {
             let window = (MEMORY / (8 * points.max(1))).clamp(1, cells.max(1));
             let scales = if window < cells {
                 Some(self.scales(&self.sums(cells)?))
@@ -167,10 +170,10 @@ impl Estimator<'_> {
     /// Empties all bins where any is too coarse for its width, and makes those finer.
     fn refine(&self, cells: &mut [Cell]) -> bool {
         let finer: Vec<Option<f64>> = cells
-            .iter()
+            .par_iter()
             .map(|cell| match &cell.samples {
                 Samples::Bins(bins) => {
-                    let width = self.moments(cell).smoothing_width;
+                    let width = self.fitted(cell, |fit| fit.width()).1?;
                     (bins.spacing() > width / (0.6 * BINS_PER_WIDTH))
                         .then_some(width / BINS_PER_WIDTH)
                 }
@@ -192,7 +195,7 @@ impl Estimator<'_> {
     /// The spacing of the first bins, from the deviation alone.
     fn first_spacing(&self, sums: &PowerSums) -> f64 {
         let spread = sums.spread(f64::INFINITY, self.effective_count);
-        self.options.smoothing.width(&spread) / BINS_PER_WIDTH
+        self.rule.first_width(&spread) / BINS_PER_WIDTH
     }
 
     fn bins_of(&self, sums: &PowerSums) -> usize {

@@ -1,8 +1,9 @@
 //! Densities and moments of all quantities at all times, from a stream of blocks.
 
 use super::cells::{Cell, Estimator, Samples};
+use super::rule::{Extent, Fit, Sample};
 use super::statistics::{LEVELS, Moments, Weighted};
-use super::{Curve, Nodes, Smoothing, smooth};
+use super::{Curve, Nodes, Smoother};
 use crate::response::{Responses, effective_count};
 use crate::{Result, interrupt};
 use rayon::prelude::*;
@@ -27,7 +28,6 @@ pub enum Grid {
 /// What is wanted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
-    pub smoothing: Smoothing,
     /// The least number of nodes at a time.
     pub points_per_time: usize,
     pub grid: Grid,
@@ -43,6 +43,8 @@ pub struct TimeDensity {
     pub moments: Moments,
     /// None where the responses have no spread.
     pub curve: Option<Curve>,
+    /// The share of the variance that a control variate leaves; none without one.
+    pub residual: Option<f64>,
 }
 
 /// Estimates the densities of `quantities` at all times and hands them over sorted by the order of
@@ -50,12 +52,14 @@ pub struct TimeDensity {
 pub fn estimate(
     source: &dyn Responses,
     quantities: &[usize],
+    smoother: &Smoother,
     options: Options,
     mut take: impl FnMut(TimeDensity) -> Result<()>,
 ) -> Result<()> {
     let estimator = Estimator {
         source,
         quantities,
+        rule: smoother.rule(),
         options,
         effective_count: effective_count(source.probability()),
     };
@@ -81,7 +85,8 @@ pub fn estimate(
 }
 
 impl Estimator<'_> {
-    pub(super) fn moments(&self, cell: &Cell) -> Moments {
+    /// The moments, no width yet, with the values they come from in ascending order.
+    fn moments(&self, cell: &Cell) -> (Moments, Vec<(f64, f64)>) {
         let [mean, deviation, skewness, kurtosis] = cell.sums.central();
         let mut pairs: Vec<(f64, f64)> = match &cell.samples {
             Samples::Each(values) => {
@@ -96,84 +101,80 @@ impl Estimator<'_> {
             Samples::One => vec![(mean, 1.0)],
         };
         let quantiles = Weighted::sort(&mut pairs).quantiles(LEVELS);
-        let spread = cell
-            .sums
-            .spread(quantiles[5] - quantiles[3], self.effective_count);
-        Moments {
+        let moments = Moments {
             mean,
             deviation,
             skewness,
             kurtosis,
             quantiles,
-            smoothing_width: match cell.samples {
-                Samples::Each(_) | Samples::Bins(_) => self.options.smoothing.width(&spread),
-                Samples::One => 0.0,
-            },
+            smoothing_width: 0.0,
             effective_count: self.effective_count,
-        }
+        };
+        (moments, pairs)
+    }
+
+    /// Moments of a cell and, where it has spread, what `work` makes of its fit.
+    pub(super) fn fitted<T>(
+        &self,
+        cell: &Cell,
+        work: impl FnOnce(&dyn Fit) -> T,
+    ) -> (Moments, Option<T>) {
+        let (moments, sorted) = self.moments(cell);
+        let probability = self.source.probability();
+        let sample = Sample::of(&cell.samples, probability, &cell.sums, &moments, &sorted);
+        let done = sample.map(|sample| work(&*self.rule.fit(&sample)));
+        (moments, done)
     }
 
     fn result(&self, index: usize, cell: &Cell, nodes: Option<Nodes>) -> TimeDensity {
-        let mut moments = self.moments(cell);
-        if let (Some(nodes), Samples::Each(_) | Samples::Bins(_)) = (nodes, &cell.samples) {
-            moments.smoothing_width = moments.smoothing_width.max(2.0 * nodes.spacing);
-        }
-        let width = moments.smoothing_width;
-        let nodes = nodes.unwrap_or_else(|| {
-            Nodes::covering(
-                cell.sums.least,
-                cell.sums.largest,
-                width,
-                self.options.points_per_time,
-            )
+        let (mut moments, done) = self.fitted(cell, |fit| {
+            let own = || fit.extent().nodes(self.options.points_per_time);
+            (fit.curve(nodes.unwrap_or_else(own)), fit.residual())
         });
-        let curve = match &cell.samples {
-            Samples::Each(values) => {
-                let probability = self.source.probability().iter().copied();
-                Some(smooth(
-                    values.iter().copied().zip(probability),
-                    width,
-                    nodes,
-                ))
-            }
-            Samples::Bins(bins) => Some(smooth(bins.nodes(), bins.kernel_width(width), nodes)),
-            Samples::One => None,
-        };
+        let (smoothed, residual) = done.unzip();
         let times = self.source.times().len();
+        moments.smoothing_width = smoothed.as_ref().map_or(0.0, |smoothed| smoothed.width);
         TimeDensity {
             quantity: self.quantities[index / times],
             time: index % times,
             moments,
-            curve,
+            curve: smoothed.map(|smoothed| smoothed.curve),
+            residual: residual.flatten(),
         }
     }
 
-    /// For each quantity the nodes that cover all of its times and resolve the smallest width, or as
-    /// much of it as the most nodes can.
+    /// For each quantity the nodes that cover all of its times and resolve what is finest, or as much
+    /// of it as the most nodes can.
     fn common_nodes(&self, cells: usize) -> Result<Vec<Option<Nodes>>> {
-        let mut extents =
-            vec![(f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY); self.quantities.len()];
+        let none = Extent {
+            least: f64::INFINITY,
+            largest: f64::NEG_INFINITY,
+            spacing: f64::INFINITY,
+            edged: false,
+        };
+        let mut extents = vec![none; self.quantities.len()];
         let times = self.source.times().len();
         self.windows(cells, |estimator, first, cells| {
-            for (k, cell) in cells.iter().enumerate() {
-                if matches!(cell.samples, Samples::One) {
-                    continue;
+            let own: Vec<Option<Extent>> = cells
+                .par_iter()
+                .map(|cell| estimator.fitted(cell, |fit| fit.extent()).1)
+                .collect();
+            for (k, own) in own.iter().enumerate() {
+                let all = &mut extents[(first + k) / times];
+                if let Some(own) = own {
+                    all.least = all.least.min(own.least);
+                    all.largest = all.largest.max(own.largest);
+                    all.spacing = all.spacing.min(own.spacing);
+                    all.edged |= own.edged;
                 }
-                let width = estimator.moments(cell).smoothing_width;
-                let (least, largest, smallest) = &mut extents[(first + k) / times];
-                *least = least.min(cell.sums.least - 6.0 * width);
-                *largest = largest.max(cell.sums.largest + 6.0 * width);
-                *smallest = smallest.min(width);
             }
             Ok(())
         })?;
-        let points = self.options.points_per_time;
-        Ok(extents
-            .into_iter()
-            .map(|(least, largest, width)| {
-                let width = width.max(2.0 * (largest - least) / COMMON_NODES);
-                (least < largest).then(|| Nodes::covering(least, largest, width, points))
-            })
-            .collect())
+        let nodes = |mut extent: Extent| {
+            let finest = (extent.largest - extent.least) / COMMON_NODES;
+            extent.spacing = extent.spacing.max(finest);
+            (extent.least < extent.largest).then(|| extent.nodes(self.options.points_per_time))
+        };
+        Ok(extents.into_iter().map(nodes).collect())
     }
 }

@@ -2,9 +2,6 @@
 
 use std::f64::consts::PI;
 
-/// Kernels are cut this many widths from their centre (1.5e-8 of their peak).
-const REACH: f64 = 6.0;
-
 /// Evenly spaced values y₀ + j Δ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nodes {
@@ -16,14 +13,22 @@ pub struct Nodes {
 }
 
 impl Nodes {
+    /// Kernels are cut this many widths from their centre (1.5e-8 of their peak).
+    pub(super) const REACH: f64 = 6.0;
+
     /// At least `count` nodes over the values and the kernels' reach beyond, at most half a width
     /// apart.
     pub fn covering(least: f64, largest: f64, width: f64, count: usize) -> Self {
-        let start = least - REACH * width;
-        let length = largest - least + 2.0 * REACH * width;
-        let intervals = (length / (0.5 * width)).ceil().max((count - 1) as f64);
+        let reach = Nodes::REACH * width;
+        Nodes::over(least - reach, largest + reach, 0.5 * width, count)
+    }
+
+    /// At least `count` nodes from least to largest, at most `spacing` apart.
+    pub fn over(least: f64, largest: f64, spacing: f64, count: usize) -> Self {
+        let length = largest - least;
+        let intervals = (length / spacing).ceil().max((count.max(2) - 1) as f64);
         Nodes {
-            start,
+            start: least,
             spacing: length / intervals,
             count: intervals as usize + 1,
         }
@@ -56,7 +61,7 @@ pub fn smooth(values: impl Iterator<Item = (f64, f64)>, width: f64, nodes: Nodes
         spacing,
         count,
     } = nodes;
-    let reach = (REACH * width / spacing).ceil() as usize + 1;
+    let reach = (Nodes::REACH * width / spacing).ceil() as usize + 1;
     let shape: Vec<f64> = (0..=reach)
         .map(|m| (-0.5 * (m as f64 * spacing / width).powi(2)).exp())
         .collect();

@@ -65,6 +65,7 @@ pub fn pseudo_excitation(
                 time,
                 moments,
                 curve,
+                residual: None,
             })?;
         }
     }

@@ -145,7 +145,7 @@ pub struct Weighted<'a> {
 impl<'a> Weighted<'a> {
     /// Sorts (value, probability) pairs.
     pub fn sort(pairs: &'a mut Vec<(f64, f64)>) -> Self {
-        pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         Weighted { pairs }
     }
 

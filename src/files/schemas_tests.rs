@@ -58,6 +58,7 @@ fn write_points(output: OutputFile, provenance: Provenance) -> Result<()> {
         components: vec!["<irregularity component>".into()],
         parameters: vec![("<random parameter>".into(), "the parameter's".into())],
         variables: 1,
+        dimensions: Some(1),
         provenance,
     };
     let mut writer = PointsWriter::create(output, &header)?;

@@ -6,7 +6,7 @@
 
 use super::{Limit, Side, confidence_bounds};
 use crate::Result;
-use crate::density::{Bins, Curve, Nodes, PowerSums, Smoothing, Weighted, smooth};
+use crate::density::{Bins, Curve, Nodes, PowerSums, Weighted, WidthRule, smooth};
 use crate::probability::cumulative;
 use crate::response::{Block, Responses, effective_count};
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ const MEMORY: usize = 192 << 20;
 /// What is wanted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
-    pub smoothing: Smoothing,
+    pub smoothing: WidthRule,
     /// Of the two-sided bounds.
     pub confidence: f64,
     /// The least number of nodes of an extreme value's density.
@@ -287,10 +287,11 @@ impl<'a> Passage<'a> {
         }
     }
 
-    fn width(&self, bins: &Bins, sums: &PowerSums, smoothing: Smoothing) -> f64 {
+    fn width(&self, bins: &Bins, sums: &PowerSums, rule: WidthRule) -> f64 {
         let mut pairs: Vec<(f64, f64)> = bins.nodes().collect();
         let [lower, upper] = Weighted::sort(&mut pairs).quantiles([0.25, 0.75]);
-        smoothing.width(&sums.spread(upper - lower, self.effective_count))
+        let spread = sums.spread(upper - lower, self.effective_count);
+        rule.width(&spread, &pairs)
     }
 
     /// Σ mass Φ((b − x)/σ).

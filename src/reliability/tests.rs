@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::Result;
-use crate::density::Smoothing;
+use crate::density::WidthRule;
 use crate::probability;
 use crate::response::{Block, Responses};
 
@@ -62,7 +62,7 @@ fn limit(side: Side, threshold: f64) -> Limit {
     }
 }
 
-fn options(smoothing: Smoothing) -> Options {
+fn options(smoothing: WidthRule) -> Options {
     Options {
         smoothing,
         confidence: 0.95,
@@ -80,7 +80,7 @@ fn all_methods_meet_the_exact_probability_of_a_growing_response() {
         limit(Side::Upper, b),
         limit(Side::Lower, -b),
     ];
-    let results = first_passage(&source, &limits, options(Smoothing::Factor(0.05))).unwrap();
+    let results = first_passage(&source, &limits, options(WidthRule::Factor(0.05))).unwrap();
     for (result, sides) in results.iter().zip([2.0, 1.0, 1.0]) {
         let mut largest = 0.0f64;
         for (k, s) in shape.iter().enumerate() {
@@ -103,7 +103,7 @@ fn all_methods_meet_the_exact_probability_of_a_growing_response() {
         }
     }
     // The falling density's bias of the smoothing is upward and known.
-    let smooth = first_passage(&source, &limits[1..2], options(Smoothing::Fixed(0.2))).unwrap();
+    let smooth = first_passage(&source, &limits[1..2], options(WidthRule::Fixed(0.2))).unwrap();
     let exact = probability::cumulative(-b / (1.0f64 + 0.04).sqrt());
     assert!((smooth[0].estimates[1][3].failure - exact).abs() < 1e-3);
 }
@@ -112,7 +112,7 @@ fn all_methods_meet_the_exact_probability_of_a_growing_response() {
 fn reliability_never_rises() {
     let source = Scaled::new(984, &[0.0, 0.9, 1.0, 0.2, 0.0, 0.0]);
     let limits = [limit(Side::Absolute, 1.0)];
-    for result in first_passage(&source, &limits, options(Smoothing::Silverman)).unwrap() {
+    for result in first_passage(&source, &limits, options(WidthRule::Silverman)).unwrap() {
         for list in &result.estimates {
             assert!(
                 list.windows(2)
@@ -128,7 +128,7 @@ fn the_extreme_value_has_its_density() {
     let result = &first_passage(
         &source,
         &[limit(Side::Absolute, 1.0)],
-        options(Smoothing::Silverman),
+        options(WidthRule::Silverman),
     )
     .unwrap()[0];
     let curve = result.extreme.as_ref().unwrap();

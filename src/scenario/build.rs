@@ -1,11 +1,11 @@
 //! From specs, as written, to the built values that the physics sees.
 
 use super::{
-    BridgeSpec, FieldKind, FilterForm, GridKind, InitialState, IntegratorKind, IrregularitySpec,
-    LimitKind, PointsSpec, QuarterCarSpec, RuleKind, Scenario, SecondOrderFilterSpec,
-    SimulationSpec, SmoothingSpec, VehicleSpec,
+    BridgeSpec, CellKernelKind, FieldKind, FilterForm, GridKind, InitialState, IntegratorKind,
+    IrregularitySpec, LimitKind, PointsSpec, QuarterCarSpec, RuleKind, Scenario,
+    SecondOrderFilterSpec, SimulationSpec, SmoothingSpec, VehicleSpec, WidthRuleSpec,
 };
-use crate::density::{self, Smoothing};
+use crate::density::{self, CellKernel, Smoothing, WidthRule};
 use crate::integrate::Integrator;
 use crate::irregularity::{
     self, GaussianField, Grid, KarhunenLoeve, KarhunenLoeveError, RandomField, RandomPhaseField,
@@ -139,12 +139,34 @@ impl IntegratorKind {
 }
 
 impl SmoothingSpec {
-    pub fn build(&self) -> Smoothing {
+    /// The rule; none where it is to be chosen.
+    pub fn build(&self) -> Option<Smoothing> {
+        Some(match self {
+            SmoothingSpec::Automatic => return None,
+            SmoothingSpec::Silverman => Smoothing::Width(WidthRule::Silverman),
+            SmoothingSpec::NormalReference => Smoothing::Width(WidthRule::NormalReference),
+            SmoothingSpec::Factor(spec) => Smoothing::Width(WidthRule::Factor(spec.factor)),
+            SmoothingSpec::Fixed(spec) => Smoothing::Width(WidthRule::Fixed(spec.width)),
+            SmoothingSpec::SheatherJones => Smoothing::Width(WidthRule::SheatherJones),
+            SmoothingSpec::VarianceCorrected => Smoothing::VarianceCorrected,
+            SmoothingSpec::Adaptive => Smoothing::Adaptive,
+            SmoothingSpec::CellImage(spec) => Smoothing::CellImage(match spec.kernel {
+                CellKernelKind::Quadratic => CellKernel::Quadratic,
+                CellKernelKind::Gaussian => CellKernel::Gaussian,
+            }),
+            SmoothingSpec::ControlVariate => Smoothing::ControlVariate,
+        })
+    }
+}
+
+impl WidthRuleSpec {
+    pub fn build(&self) -> WidthRule {
         match self {
-            SmoothingSpec::Silverman => Smoothing::Silverman,
-            SmoothingSpec::NormalReference => Smoothing::NormalReference,
-            SmoothingSpec::Factor(spec) => Smoothing::Factor(spec.factor),
-            SmoothingSpec::Fixed(spec) => Smoothing::Fixed(spec.width),
+            WidthRuleSpec::Silverman => WidthRule::Silverman,
+            WidthRuleSpec::NormalReference => WidthRule::NormalReference,
+            WidthRuleSpec::Factor(spec) => WidthRule::Factor(spec.factor),
+            WidthRuleSpec::Fixed(spec) => WidthRule::Fixed(spec.width),
+            WidthRuleSpec::SheatherJones => WidthRule::SheatherJones,
         }
     }
 }

@@ -46,7 +46,10 @@ use toml_edit::{Document, DocumentMut};
 use crate::{BadInput, Error, Result};
 
 pub use bridge::{BridgeSpec, SectionSpec};
-pub use density::{DensitySpec, FactorSpec, FixedSpec, GridKind, SmoothingSpec};
+pub use density::{
+    CellImageSpec, CellKernelKind, DensitySpec, FactorSpec, FixedSpec, GridKind, SmoothingSpec,
+    WidthRuleSpec,
+};
 pub use evolution::{AbsorbingSpec, EvolutionSpec, MethodKind, VelocityKind};
 pub use exact::{
     AmplitudeSpec, CaseSpec, DuffingSpec, ExactSpec, FreeVibrationSpec, TimesSpec,

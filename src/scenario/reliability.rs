@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::density::SmoothingSpec;
+use super::density::WidthRuleSpec;
 use super::{Scenario, Table};
 use crate::BadInput;
 
@@ -15,7 +15,7 @@ use crate::BadInput;
 pub struct ReliabilitySpec {
     /// Smoothing width for the extreme values.
     #[serde(default)]
-    pub smoothing: SmoothingSpec,
+    pub smoothing: WidthRuleSpec,
     /// Confidence level of the bounds.
     #[serde(default = "default_confidence")]
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]

@@ -140,7 +140,7 @@ fn a_run_that_ends_before_the_bridge_is_allowed_but_said() {
     // The bridge is still then, and only the vehicle has densities.
     let density = folder.done("density responses.mcap -o density.parquet");
     assert_eq!(
-        density.stderr.lines().next(),
+        density.stderr.lines().nth(1),
         Some(
             "note: bridge/midspan/displacement: no spread at 201 time(s) from 0 to 2 s: no density there"
         )

@@ -270,7 +270,10 @@ fn densities_integrate_to_one() {
     for options in [
         "",
         "--set density.points_per_time=2048",
+        "--set density.smoothing.rule=silverman",
         "--set density.smoothing.rule=normal-reference",
+        "--set density.smoothing.rule=sheather-jones",
+        "--set density.smoothing.rule=variance-corrected",
         "--set 'density.smoothing={ rule = \"factor\", factor = 0.02 }'",
         "--set 'density.smoothing={ rule = \"fixed\", width = 1e-3 }'",
     ] {

@@ -57,13 +57,16 @@ fn quiet_and_verbose() {
     let density = "density responses.mcap -o density.parquet";
     let notes = folder.done(density).stderr;
     assert!(
-        notes.starts_with("note: bridge/midspan/displacement: no spread at"),
+        notes.starts_with(
+            "note: smoothing by adaptive: the points' variables are not known (--points tells them)\n\
+             note: bridge/midspan/displacement: no spread at"
+        ),
         "{notes}"
     );
     assert_eq!(folder.done(&format!("{density} -q")).stderr, "");
     let detail = folder.done(&format!("{density} -v")).stderr;
     assert!(
-        detail.starts_with("34 points, 201 times, smoothing by silverman\nnote: "),
+        detail.contains("\n34 points, 201 times, smoothing by adaptive\nnote: "),
         "{detail}"
     );
     // An error is told even then.

@@ -14,5 +14,6 @@ mod foreign;
 mod growth;
 mod harness;
 mod interruption;
+mod known_points;
 mod pseudo_excitation;
 mod random;

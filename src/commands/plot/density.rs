@@ -51,7 +51,10 @@ impl Chosen {
             .and_then(|text| Scenario::from_text("scenario", text).ok())
             .and_then(|scenario| {
                 if self.of_extremes() {
-                    scenario.reliability().ok().map(|spec| spec.smoothing)
+                    scenario
+                        .reliability()
+                        .ok()
+                        .map(|spec| spec.smoothing.into())
                 } else {
                     scenario.density().ok().map(|spec| spec.smoothing)
                 }
@@ -83,10 +86,16 @@ impl Chosen {
 
 fn smoothing_in_words(spec: SmoothingSpec) -> String {
     match spec {
+        SmoothingSpec::Automatic => "smoothed by a rule chosen automatically".to_owned(),
         SmoothingSpec::Silverman => "smoothed by Silverman's rule".to_owned(),
         SmoothingSpec::NormalReference => "smoothed by the normal reference rule".to_owned(),
         SmoothingSpec::Factor(spec) => format!("smoothed by the rule of factor {}", spec.factor),
         SmoothingSpec::Fixed(_) => "smoothed by a fixed width".to_owned(),
+        SmoothingSpec::SheatherJones => "smoothed by the rule of Sheather and Jones".to_owned(),
+        SmoothingSpec::VarianceCorrected => "smoothed by the variance-corrected kernel".to_owned(),
+        SmoothingSpec::Adaptive => "smoothed as near to normal as the responses are".to_owned(),
+        SmoothingSpec::CellImage(_) => "images of the points' cells".to_owned(),
+        SmoothingSpec::ControlVariate => "by regression on the leading variables".to_owned(),
     }
 }
 

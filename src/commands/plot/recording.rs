@@ -4,7 +4,7 @@ use super::{Axis, Image, chosen, page, value_axis};
 use crate::Result;
 use crate::cli;
 use crate::commands::responses::{Source, check_representative};
-use crate::density::{Grid, Options, Smoothing, estimate};
+use crate::density::{Grid, Options, Smoother, WidthRule, estimate};
 use crate::files::recording::Recordings;
 use crate::plot::{Fan, Statistics};
 
@@ -70,7 +70,6 @@ fn statistics(recordings: &Recordings, quantity: usize) -> Result<Statistics> {
         times: recordings.times_of(quantity),
     };
     let options = Options {
-        smoothing: Smoothing::Silverman,
         points_per_time: 2,
         grid: Grid::Own,
     };
@@ -82,7 +81,8 @@ fn statistics(recordings: &Recordings, quantity: usize) -> Result<Statistics> {
         quantile_75: Vec::new(),
         quantile_95: Vec::new(),
     };
-    estimate(&source, &[quantity], options, |result| {
+    let smoother = Smoother::by_width(WidthRule::Silverman);
+    estimate(&source, &[quantity], &smoother, options, |result| {
         let [_, _, q05, q25, _, q75, q95, _, _] = result.moments.quantiles;
         statistics.mean.push(result.moments.mean);
         statistics.quantile_05.push(q05);

@@ -46,7 +46,7 @@ mod regression;
 mod sample;
 mod surrogate;
 
-use super::{Curve, Nodes, PowerSums, Smoothing, Weighted, smooth};
+use super::{Curve, Nodes, PowerSums, Weighted, WidthRule, smooth};
 pub use check::ControlVariateError;
 use check::check;
 use correction::{Correction, Kernel};
@@ -318,7 +318,7 @@ impl ControlVariate {
         let mut pairs: Vec<(f64, f64)> = values.into_iter().zip(probability).collect();
         let [lower, upper] = Weighted::sort(&mut pairs).quantiles([0.25, 0.75]);
         let spread = sums.spread(upper - lower, self.effective_count);
-        let width = Smoothing::Silverman.width(&spread);
+        let width = WidthRule::Silverman.width(&spread, &[]);
         let nodes = Nodes::covering(sums.least, sums.largest, width, least_nodes.max(256));
         Controlled {
             curve: smooth(pairs.into_iter(), width, nodes),

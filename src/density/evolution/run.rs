@@ -3,7 +3,7 @@
 use super::scheme::{Parcel, Scratch, moments_of};
 use super::survey::{Survey, points_of};
 use super::{Mesh, Options, Transport};
-use crate::density::{self, Curve, Grid, Nodes, Smoothing, TimeDensity};
+use crate::density::{self, Curve, Grid, Nodes, Smoother, TimeDensity, WidthRule};
 use crate::response::{Block, Responses};
 use crate::{Result, interrupt};
 use rayon::prelude::*;
@@ -382,11 +382,11 @@ pub fn moments(
     mut take: impl FnMut(TimeDensity) -> Result<()>,
 ) -> Result<()> {
     let options = density::Options {
-        smoothing: Smoothing::Silverman,
         points_per_time: 16,
         grid: Grid::Own,
     };
-    density::estimate(source, &[quantity], options, |mut result| {
+    let smoother = Smoother::by_width(WidthRule::Silverman);
+    density::estimate(source, &[quantity], &smoother, options, |mut result| {
         result.curve = None;
         result.moments.smoothing_width = 0.0;
         take(result)

@@ -4,7 +4,7 @@ use arrow::array::{Array, AsArray};
 use arrow::datatypes::DataType;
 
 use super::columns::{element, is_list_of_numbers};
-use super::{POINT, PROBABILITY, VARIABLES};
+use super::{DIMENSIONS, POINT, PROBABILITY, VARIABLES};
 use crate::files::parquet_input::{Input, Select, is_number};
 use crate::{BadInput, Error, Result};
 
@@ -89,6 +89,23 @@ pub(super) fn variables(input: &Input) -> Option<usize> {
         let field = input.schema().field(*column);
         is_list_of_numbers(field.data_type())
     })
+}
+
+/// The number of variables of which `known` are in the file.
+pub(super) fn dimensions(input: &Input, known: usize) -> Result<Option<usize>> {
+    let Some(text) = input.attribute(DIMENSIONS) else {
+        return Ok(None);
+    };
+    match text.trim().parse::<usize>() {
+        Ok(value) if value >= known => Ok(Some(value)),
+        Ok(_) | Err(_) => Err(BadInput::new(
+            input.place(),
+            DIMENSIONS,
+            format!("a whole number of at least {known}, the variables in the file"),
+            format!("`{text}`"),
+        )
+        .into()),
+    }
 }
 
 /// The columns of numbers that are neither point, probability nor pandas' index.

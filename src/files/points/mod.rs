@@ -25,6 +25,7 @@ const VARIABLES: &str = "variables";
 const WEIGHTS: &str = "weights";
 const POSITION_START: &str = "position_start";
 const POSITION_STEP: &str = "position_step";
+const DIMENSIONS: &str = "dimensions";
 
 #[cfg(test)]
 mod tests;

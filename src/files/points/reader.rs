@@ -5,7 +5,8 @@ use std::path::Path;
 
 use super::columns::{ListColumn, PageColumn, plain_leaf};
 use super::header::{
-    components, first_length, parameters, position, probability, too_few_rows, variables,
+    components, dimensions, first_length, parameters, position, probability, too_few_rows,
+    variables,
 };
 use super::{POSITION_START, POSITION_STEP, PROBABILITY, ROW_GROUP, VARIABLES, WEIGHTS};
 use crate::files::parquet_input::{BatchReader, Input, Select, as_numbers};
@@ -34,6 +35,9 @@ pub struct ReadHeader {
     pub parameters: Vec<(String, String)>,
     /// How many leading standard normals the file holds for each point; 0 without them.
     pub variables: usize,
+    /// How many standard normals each point has, those that the file does not hold included; none
+    /// where the file does not say.
+    pub dimensions: Option<usize>,
     /// The stamp; `None` for a file of another program.
     pub provenance: Option<Provenance>,
 }
@@ -125,6 +129,7 @@ impl PointsReader {
                 .map(|column| (name(column), unit(column)))
                 .collect(),
             variables,
+            dimensions: dimensions(&input, variables)?,
             provenance,
         };
         Ok(PointsReader {

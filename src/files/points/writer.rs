@@ -14,7 +14,9 @@ use parquet::file::metadata::{
 use parquet::schema::types::SchemaDescPtr;
 
 use super::pages::{self, Failure, LevelCache, Sink};
-use super::{POINT, POSITION_START, POSITION_STEP, PROBABILITY, ROW_GROUP, VARIABLES, WEIGHTS};
+use super::{
+    DIMENSIONS, POINT, POSITION_START, POSITION_STEP, PROBABILITY, ROW_GROUP, VARIABLES, WEIGHTS,
+};
 use crate::files::attributes::Attributes;
 use crate::files::output::{self, OutputFile};
 use crate::files::{Provenance, Weights};
@@ -39,6 +41,8 @@ pub struct PointsHeader {
     pub parameters: Vec<(String, String)>,
     /// How many leading standard normals are kept for each point; may be 0.
     pub variables: usize,
+    /// How many standard normals each point has, those that are not kept included.
+    pub dimensions: Option<usize>,
     /// The stamp.
     pub provenance: Provenance,
 }
@@ -310,6 +314,9 @@ fn attributes(header: &PointsHeader) -> Attributes {
     attributes.text(WEIGHTS, header.weights.name());
     attributes.number(POSITION_START, header.position_start);
     attributes.number(POSITION_STEP, header.position_step);
+    if let Some(dimensions) = header.dimensions {
+        attributes.json(DIMENSIONS, serde_json::json!(dimensions));
+    }
     attributes
 }
 

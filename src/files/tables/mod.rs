@@ -227,7 +227,7 @@ const MOMENTS: &[Column] = &[
     number(
         "smoothing_width",
         Unit::Quantity,
-        "standard deviation of the smoothing kernel; by density evolution that of one point's probability, smoothed by the mesh; 0 for the exact densities of a pseudo-excitation",
+        "standard deviation of the smoothing kernel (of several: their mean); by density evolution that of one point's probability, smoothed by the mesh; 0 without one",
     ),
     number(
         "effective_count",

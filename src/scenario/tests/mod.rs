@@ -222,7 +222,7 @@ fn optional_keys_are_read() {
     );
     assert_eq!(
         scenario.reliability().unwrap().smoothing,
-        SmoothingSpec::Factor(FactorSpec { factor: 0.02 })
+        WidthRuleSpec::Factor(FactorSpec { factor: 0.02 })
     );
     let kinds = scenario.set(&sets(&KINDS)).unwrap();
     assert_eq!(

@@ -82,6 +82,7 @@ fn the_specs_and_the_schema_have_the_same_keys() {
             r#"reliability.smoothing={ rule = "fixed", width = 1 }"#,
             r#"random.0.distribution={ kind = "gamma", mean = 2.6e9, coefficient_of_variation = 0.1 }"#,
         ]),
+        kinds(&[r#"density.smoothing={ rule = "cell-image" }"#]),
     ] {
         let specs = serde_json::to_value(scenario.check_all().unwrap()).unwrap();
         keys("", &specs, &mut in_specs);
@@ -172,11 +173,12 @@ fn every_choice_is_one_that_serde_knows() {
                 ".density.method" => read::<MethodKind>(json),
                 ".density.evolution.velocity" => read::<VelocityKind>(json),
                 ".density.evolution.absorbing.kind" => read::<LimitKind>(json),
+                ".density.smoothing.kernel" => read::<CellKernelKind>(json),
                 ".density.grid" => read::<GridKind>(json),
                 ".reliability.limit.kind" => read::<LimitKind>(json),
                 other => panic!("{other} is not tested here"),
             }
         }
     }
-    assert_eq!(count, 46);
+    assert_eq!(count, 48);
 }

@@ -52,6 +52,7 @@ fn header(positions: usize) -> PointsHeader {
         components: vec!["vertical".into(), "lateral".into()],
         parameters: vec![("vehicle.body_mass".into(), "kg".into())],
         variables: 2,
+        dimensions: Some(40),
         provenance: Provenance::stamp(Kind::Points, Some("title = \"a\"\n"), Some(7), &[], &[]),
     }
 }

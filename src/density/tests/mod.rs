@@ -1,5 +1,7 @@
 //! The estimator against direct sums and exact densities.
 
+mod exact;
+
 use super::*;
 use crate::Result;
 use crate::probability;
@@ -67,9 +69,14 @@ fn normal(count: usize, scale: f64) -> Held {
     }
 }
 
-fn run(held: &Held, options: Options) -> Vec<TimeDensity> {
+fn run(held: &Held, smoothing: Smoothing, grid: Grid) -> Vec<TimeDensity> {
+    let smoother = Smoother::new(smoothing, None).unwrap();
+    let options = Options {
+        points_per_time: 256,
+        grid,
+    };
     let mut out = Vec::new();
-    estimate(held, &[0], options, |result| {
+    estimate(held, &[0], &smoother, options, |result| {
         out.push(result);
         Ok(())
     })
@@ -77,13 +84,7 @@ fn run(held: &Held, options: Options) -> Vec<TimeDensity> {
     out
 }
 
-fn options(smoothing: Smoothing) -> Options {
-    Options {
-        smoothing,
-        points_per_time: 256,
-        grid: Grid::Own,
-    }
-}
+const SILVERMAN: Smoothing = Smoothing::Width(WidthRule::Silverman);
 
 fn direct(held: &Held, width: f64, y: f64) -> (f64, f64) {
     let terms = held.values[0][1].iter().zip(&held.probability);
@@ -99,14 +100,14 @@ fn direct(held: &Held, width: f64, y: f64) -> (f64, f64) {
 #[test]
 fn the_fast_sum_is_the_direct_sum() {
     for (count, smoothing, density_error) in [
-        (984, Smoothing::Silverman, 2e-8),
-        (984, Smoothing::Factor(0.02), 2e-8),
-        (20_011, Smoothing::Silverman, 1e-5),
-        (20_011, Smoothing::NormalReference, 1e-5),
-        (20_011, Smoothing::Factor(0.2), 1e-4),
+        (984, WidthRule::Silverman, 2e-8),
+        (984, WidthRule::Factor(0.02), 2e-8),
+        (20_011, WidthRule::Silverman, 1e-5),
+        (20_011, WidthRule::NormalReference, 1e-5),
+        (20_011, WidthRule::Factor(0.2), 1e-4),
     ] {
         let held = normal(count, 1e-3);
-        let results = run(&held, options(smoothing));
+        let results = run(&held, Smoothing::Width(smoothing), Grid::Own);
         assert!(results[0].curve.is_none() && results[0].moments.mean == 3.0);
         let curve = results[1].curve.as_ref().unwrap();
         let width = results[1].moments.smoothing_width;
@@ -140,7 +141,7 @@ fn the_fast_sum_is_the_direct_sum() {
 fn moments_and_quantiles_of_a_normal() {
     for count in [984, 20_011] {
         let held = normal(count, 1e-3);
-        let moments = &run(&held, options(Smoothing::Silverman))[1].moments;
+        let moments = &run(&held, SILVERMAN, Grid::Own)[1].moments;
         assert!((moments.mean - 5.0).abs() < 1e-6);
         assert!((moments.deviation / 1e-3 - 1.0).abs() < 5e-3);
         assert!(moments.skewness.abs() < 0.02 && (moments.kurtosis - 3.0).abs() < 0.1);
@@ -169,11 +170,7 @@ fn a_common_grid_has_the_same_nodes_at_all_times() {
         .iter()
         .map(|x| 5.01 + 3.0 * (x - 5.0))
         .collect();
-    let common = Options {
-        grid: Grid::Common,
-        ..options(Smoothing::Silverman)
-    };
-    let results = run(&held, common);
+    let results = run(&held, SILVERMAN, Grid::Common);
     let curves: Vec<_> = results.iter().map(|r| r.curve.as_ref().unwrap()).collect();
     assert_eq!(curves[0].nodes, curves[1].nodes);
     for (curve, result) in curves.iter().zip(&results) {
@@ -189,10 +186,10 @@ fn rules_of_the_width() {
         interquartile: 1.34,
         effective_count: 32.0,
     };
-    assert!((Smoothing::Silverman.width(&spread) - 0.45).abs() < 1e-15);
-    assert!((Smoothing::NormalReference.width(&spread) - 1.06).abs() < 1e-15);
-    assert!((Smoothing::Factor(0.02).width(&spread) - 0.01).abs() < 1e-15);
-    assert_eq!(Smoothing::Fixed(0.3).width(&spread), 0.3);
+    assert!((WidthRule::Silverman.width(&spread, &[]) - 0.45).abs() < 1e-15);
+    assert!((WidthRule::NormalReference.width(&spread, &[]) - 1.06).abs() < 1e-15);
+    assert!((WidthRule::Factor(0.02).width(&spread, &[]) - 0.01).abs() < 1e-15);
+    assert_eq!(WidthRule::Fixed(0.3).width(&spread, &[]), 0.3);
 }
 
 #[test]
@@ -203,7 +200,7 @@ fn rounding_beside_the_scale_is_no_spread() {
             .iter()
             .map(|x| 1e-18 * (x - 5.0))
             .collect();
-        let results = run(&held, options(Smoothing::Silverman));
+        let results = run(&held, SILVERMAN, Grid::Own);
         assert!(results[0].curve.is_none() && results[0].moments.smoothing_width == 0.0);
         assert!(results[1].curve.is_some());
     }
@@ -216,11 +213,7 @@ fn a_common_grid_widens_what_it_can_not_resolve() {
         .iter()
         .map(|x| 5.0 + 1e-7 * (x - 5.0))
         .collect();
-    let common = Options {
-        grid: Grid::Common,
-        ..options(Smoothing::Silverman)
-    };
-    let results = run(&held, common);
+    let results = run(&held, SILVERMAN, Grid::Common);
     let curves: Vec<_> = results.iter().map(|r| r.curve.as_ref().unwrap()).collect();
     assert_eq!(curves[0].nodes, curves[1].nodes);
     assert!(curves[0].density.len() < 9000);

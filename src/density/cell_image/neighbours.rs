@@ -1,0 +1,68 @@
+//! The points nearest to a place.
+
+/// Points in a few dimensions, in the order of their first coordinate.
+pub(super) struct Neighbours<'a> {
+    /// `[point][dimension]`.
+    points: &'a [f64],
+    dimensions: usize,
+    order: Vec<u32>,
+}
+
+impl<'a> Neighbours<'a> {
+    pub fn new(points: &'a [f64], dimensions: usize) -> Self {
+        let mut order: Vec<u32> = (0..(points.len() / dimensions) as u32).collect();
+        let first = |k: u32| points[k as usize * dimensions];
+        order.sort_by(|a, b| first(*a).total_cmp(&first(*b)).then(a.cmp(b)));
+        Neighbours {
+            points,
+            dimensions,
+            order,
+        }
+    }
+
+    /// The `count` points nearest to a place, the nearest first, as (squared distance, point). From the
+    /// place's first coordinate the search goes either way, until that coordinate alone is too far.
+    pub fn nearest(&self, place: &[f64], count: usize, found: &mut Vec<(f64, u32)>) {
+        found.clear();
+        let first = |k: u32| self.points[k as usize * self.dimensions];
+        let middle = self.order.partition_point(|k| first(*k) < place[0]);
+        let (mut down, mut up) = (middle, middle);
+        loop {
+            let far = if found.len() == count {
+                found[count - 1].0
+            } else {
+                f64::INFINITY
+            };
+            let gap = |at: Option<&u32>| at.map_or(f64::INFINITY, |k| (first(*k) - place[0]).abs());
+            let below = gap(down.checked_sub(1).and_then(|at| self.order.get(at)));
+            let above = gap(self.order.get(up));
+            let next = below.min(above);
+            if next * next > far || next == f64::INFINITY {
+                return;
+            }
+            let point = if below <= above {
+                down -= 1;
+                self.order[down]
+            } else {
+                up += 1;
+                self.order[up - 1]
+            };
+            let distance = self.squared_distance(point, place);
+            if distance < far || found.len() < count {
+                let at = found.partition_point(|f| *f <= (distance, point));
+                found.insert(at, (distance, point));
+                found.truncate(count);
+            }
+        }
+    }
+
+    fn squared_distance(&self, point: u32, place: &[f64]) -> f64 {
+        let start = point as usize * self.dimensions;
+        let coordinates = &self.points[start..start + self.dimensions];
+        coordinates
+            .iter()
+            .zip(place)
+            .map(|(a, b)| (a - b) * (a - b))
+            .sum()
+    }
+}
