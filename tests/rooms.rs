@@ -4,9 +4,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const DOMAIN: [&str; 8] = [
+const DOMAIN: [&str; 9] = [
     "probability",
     "irregularity",
+    "excitation",
     "system",
     "integrate",
     "ensemble",

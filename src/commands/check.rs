@@ -6,8 +6,8 @@ use crate::ensemble::LANES;
 use crate::files::recording::band_layout;
 use crate::integrate::Integrator;
 use crate::irregularity::SpectralRepresentation;
-use crate::scenario::{IrregularitySpec, Precision, Scenario};
-use crate::system::{Crossing, largest_stable_step};
+use crate::scenario::{FieldKind, IrregularitySpec, Precision, Scenario, SimulationSpec};
+use crate::system::{Chain, Crossing, largest_stable_step};
 use std::fmt::Write;
 
 /// Point-steps a core does in a second, for an estimate only: with ten modes and AVX-512 one was
@@ -27,7 +27,7 @@ pub(super) fn run(args: &cli::Check) -> Result<()> {
         scenario.title().unwrap_or("without a title")
     ));
     let points = if scenario.has("points") {
-        excitation(&scenario, &mut write)?
+        points(&scenario, &mut write)?
     } else {
         None
     };
@@ -37,19 +37,25 @@ pub(super) fn run(args: &cli::Check) -> Result<()> {
     super::print(&text)?;
     // Last, so that all of the above is seen before the verdict.
     if scenario.has("simulation") {
-        scenario.crossing()?;
+        super::model::Model::read(&scenario)?;
     }
     Ok(())
 }
 
-/// Points and irregularity; returns the number of points.
-fn excitation(scenario: &Scenario, write: &mut impl FnMut(String)) -> Result<Option<usize>> {
+/// Points, irregularity or excitation; returns the number of points.
+fn points(scenario: &Scenario, write: &mut impl FnMut(String)) -> Result<Option<usize>> {
     let spec = scenario.points()?;
+    if scenario.has("excitation") {
+        return excitation(scenario, &spec, write).map(Some);
+    }
+    if scenario.has("oscillator") {
+        return Ok(Some(spec.build(0).count()));
+    }
     if !scenario.has("irregularity") {
         return Ok(None);
     }
     let irregularity = scenario.irregularity()?;
-    scenario.check_truncation(&spec, &irregularity)?;
+    scenario.check_truncation(&spec, "irregularity", irregularity.field)?;
     let grid = scenario.irregularity_grid(&irregularity)?;
     let dimensions = variables(&irregularity);
     // The number of points does not depend on the dimensions.
@@ -96,13 +102,50 @@ fn excitation(scenario: &Scenario, write: &mut impl FnMut(String)) -> Result<Opt
 }
 
 fn variables(spec: &IrregularitySpec) -> usize {
-    let per_wavenumber = match spec.field {
-        crate::scenario::FieldKind::Gaussian => 2,
-        crate::scenario::FieldKind::RandomPhase => 1,
-    };
     spec.wavenumber
         .as_ref()
-        .map_or(0, |band| per_wavenumber * band.count as usize)
+        .map_or(0, |band| per_wavenumber(spec.field) * band.count as usize)
+}
+
+fn per_wavenumber(field: FieldKind) -> usize {
+    match field {
+        FieldKind::Gaussian => 2,
+        FieldKind::RandomPhase => 1,
+    }
+}
+
+/// Points and an excitation in time; returns the number of points.
+fn excitation(
+    scenario: &Scenario,
+    points: &crate::scenario::PointsSpec,
+    write: &mut impl FnMut(String),
+) -> Result<usize> {
+    let spec = scenario.excitation()?;
+    scenario.check_truncation(points, "excitation", spec.field)?;
+    let grid = scenario.excitation_grid(&spec)?;
+    let band = &spec.frequency;
+    let dimensions = per_wavenumber(spec.field) * band.count as usize;
+    let count = points.build(dimensions.min(2)).count();
+    write(format!(
+        "points: {count} by {} in {dimensions} standard normal variables",
+        points.rule.name()
+    ));
+    let end = grid.position(grid.count - 1);
+    write(format!(
+        "excitation: {} times from 0 to {end} s, {} s apart, frequencies up to {} rad/s",
+        grid.count, grid.spacing, band.max
+    ));
+    let repeats = 2.0 * std::f64::consts::PI * f64::from(band.count) / band.max;
+    if end > repeats {
+        write(format!(
+            "  note: the process repeats after {repeats:.1} s (up to the sign): take more frequencies"
+        ));
+    }
+    write(format!(
+        "  points file: about {}",
+        size(count * (8 * grid.count + 8))
+    ));
+    Ok(count)
 }
 
 /// Frequencies, steps and sizes of the simulation.
@@ -112,6 +155,12 @@ fn simulation(
     write: &mut impl FnMut(String),
 ) -> Result<()> {
     let spec = scenario.simulation()?;
+    if scenario.has("oscillator") {
+        let chain = scenario.chain_at_any_step(&spec)?;
+        oscillator(&chain, write);
+        recording(&spec, chain.times().len(), chain.steps, points, write);
+        return Ok(());
+    }
     let crossing = scenario.crossing_at_any_step(&spec)?;
     frequencies(&crossing, write);
     let position = crossing.positions();
@@ -144,7 +193,19 @@ fn simulation(
         };
         write(format!("  {:<17} {bound}{mark}", integrator.name()));
     }
-    let (times, quantities) = (crossing.times().len(), spec.record.len());
+    recording(&spec, crossing.times().len(), crossing.steps, points, write);
+    Ok(())
+}
+
+/// What is recorded, and what that takes.
+fn recording(
+    spec: &SimulationSpec,
+    times: usize,
+    steps: usize,
+    points: Option<usize>,
+    write: &mut impl FnMut(String),
+) {
+    let quantities = spec.record.len();
     let bytes = match spec.precision {
         Precision::F64 => 8,
         Precision::F32 => 4,
@@ -154,7 +215,7 @@ fn simulation(
         "recording: {quantities} quantities at {times} times, blocks of {block} points, bands of {band}"
     ));
     if let Some(points) = points {
-        let steps = points as f64 * (crossing.steps + 1) as f64;
+        let steps = points as f64 * (steps + 1) as f64;
         let seconds = steps / POINT_STEPS_PER_SECOND;
         let held = points.next_multiple_of(LANES).min(band) * times * quantities * 8;
         write(format!(
@@ -166,7 +227,27 @@ fn simulation(
             size(3 * held)
         ));
     }
-    Ok(())
+}
+
+/// Frequencies of the undeformed chain, and its largest step.
+fn oscillator(chain: &Chain, write: &mut impl FnMut(String)) {
+    write("oscillator, undeformed:".to_owned());
+    let ratios = chain.modal_damping_ratios();
+    for (k, (omega, ratio)) in chain.modes().0.iter().zip(ratios).enumerate().take(10) {
+        write(format!(
+            "  mode {:>2}: {:>10.4} Hz, {omega:>10.4} rad/s, damping ratio {ratio:.4}",
+            k + 1,
+            omega / (2.0 * std::f64::consts::PI)
+        ));
+    }
+    let given = chain.time_step;
+    write(match chain.largest_stable_step() {
+        None => format!("largest stable step: any, given: {given} s"),
+        Some(largest) if largest < given => {
+            format!("largest stable step: {largest} s, given: {given} s, NOT STABLE")
+        }
+        Some(largest) => format!("largest stable step: {largest} s, given: {given} s"),
+    });
 }
 
 fn frequencies(crossing: &Crossing, write: &mut impl FnMut(String)) {

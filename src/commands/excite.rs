@@ -1,6 +1,6 @@
 //! `dpim excite`: representative points and their irregularities.
 
-use super::Context;
+use super::{Context, excitation};
 use crate::cli;
 use crate::files::points::{PointsBatch, PointsHeader, PointsWriter, ROW_GROUP};
 use crate::files::{Kind, OutputFile, Provenance, Weights, tabulated};
@@ -9,7 +9,7 @@ use crate::irregularity::{
 };
 use crate::probability::PointRule;
 use crate::scenario::{
-    DeterministicSpec, IrregularitySpec, ProfileSpec, Scenario, Sided, SpectrumSpec,
+    DeterministicSpec, IrregularitySpec, PointsSpec, ProfileSpec, Scenario, Sided, SpectrumSpec,
     SpectrumTableSpec, WavenumberUnit,
 };
 use crate::{Result, interrupt};
@@ -27,9 +27,7 @@ pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
     )?;
     let scenario = load(args)?;
     let points = scenario.points()?;
-    let spec = scenario.irregularity()?;
-    scenario.check_truncation(&points, &spec)?;
-    let source = Source::new(context, &scenario, &spec)?;
+    let source = Source::read(context, &scenario, &points)?;
     let dimensions = source
         .field
         .as_ref()
@@ -53,7 +51,7 @@ pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
         position_start: source.grid.start,
         position_step: source.grid.spacing,
         positions: source.grid.count,
-        components: vec!["vertical".to_owned()],
+        components: source.component.iter().map(|c| c.to_string()).collect(),
         parameters: Vec::new(),
         variables: 0,
         provenance: Provenance::stamp(
@@ -65,7 +63,7 @@ pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
         ),
     };
     context.detail(format!(
-        "{} points by {}, {} variables, {} positions from {} m, {}",
+        "{} points by {}, {} variables, {} positions or times from {}, {}",
         rule.count(),
         points.rule.name(),
         dimensions,
@@ -108,11 +106,16 @@ fn write(
             for group in groups {
                 let probability: Vec<f64> =
                     group.points.clone().map(|q| rule.probability(q)).collect();
+                let rows = [group.rows.as_slice()];
                 writer.write(&PointsBatch {
                     first_point: group.points.start as u32,
                     probability: &probability,
                     parameters: &[],
-                    irregularity: &[&group.rows],
+                    irregularity: if source.component.is_some() {
+                        &rows
+                    } else {
+                        &[]
+                    },
                     variables: &[],
                 })?;
                 // Memory that finds no room on its way back is let go.
@@ -147,15 +150,49 @@ fn write(
 }
 
 /// Where the rows come from.
-struct Source {
-    grid: Grid,
-    field: Option<SpectralRepresentation>,
-    synthesis: Option<Synthesis>,
+pub(super) struct Source {
+    /// The column; none where nothing is given over positions or times.
+    pub component: Option<&'static str>,
+    pub grid: Grid,
+    pub field: Option<SpectralRepresentation>,
+    pub synthesis: Option<Synthesis>,
     /// The deterministic part at the positions.
-    mean: Vec<f64>,
+    pub mean: Vec<f64>,
+    /// A factor on everything, at each position.
+    pub modulation: Option<Vec<f64>>,
 }
 
 impl Source {
+    /// The irregularity or the excitation of a scenario; nothing for an oscillator that has none.
+    fn read(context: &Context, scenario: &Scenario, points: &PointsSpec) -> Result<Self> {
+        if scenario.has("excitation") {
+            let spec = scenario.excitation()?;
+            scenario.check_truncation(points, "excitation", spec.field)?;
+            return excitation::source(context, scenario, &spec);
+        }
+        if scenario.has("oscillator") {
+            return Ok(Source::none());
+        }
+        let spec = scenario.irregularity()?;
+        scenario.check_truncation(points, "irregularity", spec.field)?;
+        Source::new(context, scenario, &spec)
+    }
+
+    fn none() -> Self {
+        Source {
+            component: None,
+            grid: Grid {
+                start: 0.0,
+                spacing: 1.0,
+                count: 0,
+            },
+            field: None,
+            synthesis: None,
+            mean: Vec::new(),
+            modulation: None,
+        }
+    }
+
     fn new(context: &Context, scenario: &Scenario, spec: &IrregularitySpec) -> Result<Self> {
         let grid = scenario.irregularity_grid(spec)?;
         let field = match (&spec.spectrum, &spec.wavenumber) {
@@ -176,6 +213,8 @@ impl Source {
             None => Deterministic::Smooth,
         };
         Ok(Source {
+            component: Some("vertical"),
+            modulation: None,
             synthesis: field.as_ref().map(|field| Synthesis::new(field, grid)),
             mean: (0..grid.count)
                 .map(|j| deterministic.height(grid.position(j)))
@@ -188,7 +227,7 @@ impl Source {
     fn describe(&self) -> String {
         match (&self.field, &self.synthesis) {
             (Some(field), Some(synthesis)) => format!(
-                "standard deviation of the field {:.6} m, sums by {:?}",
+                "standard deviation of the field {:.6e}, sums by {:?}",
                 field.variance().sqrt(),
                 synthesis.method()
             ),
@@ -199,6 +238,9 @@ impl Source {
     /// Fills `[point][position]` from the point `first` on.
     fn fill(&self, rule: &dyn PointRule, first: usize, rows: &mut [f64]) {
         let positions = self.grid.count;
+        if positions == 0 {
+            return;
+        }
         rows.par_chunks_mut(PART * positions)
             .enumerate()
             .for_each_init(
@@ -220,6 +262,14 @@ impl Source {
                         coefficients.resize(2 * field.amplitudes().len() * count, 0.0);
                         field.coefficients(variables, count, coefficients);
                         synthesis.add(coefficients, count, rows);
+                    }
+                    let Some(modulation) = &self.modulation else {
+                        return;
+                    };
+                    for row in rows.chunks_exact_mut(positions) {
+                        row.iter_mut()
+                            .zip(modulation)
+                            .for_each(|(value, m)| *value *= m);
                     }
                 },
             );

@@ -3,6 +3,7 @@
 mod check;
 mod completions;
 mod density;
+mod excitation;
 mod excite;
 mod inspect;
 mod model;

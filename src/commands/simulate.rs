@@ -32,7 +32,7 @@ pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
     }
     let reader = PointsReader::open(&args.points)?;
     let range = checked_range(args, reader.header().count)?;
-    let component = model.component(&args.points, &reader)?;
+    let component = model.component(&reader)?;
     let system = model.system(&scenario, &quantities, &args.points, &reader)?;
     let header = header(&scenario, &simulation, &quantities, &reader, &range, args);
     let output = OutputFile::create(&args.output.output, !args.output.no_clobber)?;

@@ -15,7 +15,7 @@ use crate::system::{self, Beam, BumpStop, Crossing, QuarterCar, Section};
 use crate::{BadInput, Result};
 
 /// Positions of an irregularity, at most: rows of more would not fit in memory by the thousand.
-const MOST_POSITIONS: usize = 1_000_000;
+pub(super) const MOST_POSITIONS: usize = 1_000_000;
 
 /// Time steps of a run, at most: what all points share is kept for each of them.
 const MOST_STEPS: f64 = 1e7;
@@ -102,13 +102,20 @@ impl QuarterCarSpec {
 }
 
 impl IntegratorKind {
-    pub fn build(self) -> Integrator {
+    /// The scheme of a crossing; none for those that are not.
+    pub fn build(self) -> Option<Integrator> {
         match self {
-            IntegratorKind::ExplicitNewmark => Integrator::ExplicitNewmark,
-            IntegratorKind::Newmark => Integrator::Newmark,
-            IntegratorKind::Zhai => Integrator::Zhai,
-            IntegratorKind::Exponential => Integrator::Exponential,
+            IntegratorKind::ExplicitNewmark => Some(Integrator::ExplicitNewmark),
+            IntegratorKind::Newmark => Some(Integrator::Newmark),
+            IntegratorKind::Zhai => Some(Integrator::Zhai),
+            IntegratorKind::Exponential => Some(Integrator::Exponential),
+            IntegratorKind::RungeKutta => None,
         }
+    }
+
+    /// The scheme's name in a scenario.
+    pub fn name(self) -> &'static str {
+        self.build().map_or("runge-kutta", Integrator::name)
     }
 }
 
@@ -209,18 +216,18 @@ impl Scenario {
     /// A table that is missing or wrong; more than ten million steps.
     pub fn crossing_at_any_step(&self, simulation: &SimulationSpec) -> Result<Crossing> {
         let VehicleSpec::QuarterCar(car) = self.vehicle()?;
-        let steps = (simulation.duration / simulation.time_step * (1.0 + 1e-12)).floor();
-        if steps > MOST_STEPS {
-            let expected = format!("at most {MOST_STEPS} steps in simulation.duration");
-            let error = self.bad("simulation.time_step", expected, steps.to_string());
-            return Err(error.remedy("take a larger step").into());
-        }
+        let Some(integrator) = simulation.integrator.build() else {
+            let names = Integrator::ALL.map(|integrator| format!("{:?}", integrator.name()));
+            let expected = format!("a scheme of crossings, one of {}", names.join(", "));
+            let found = format!("{:?}", simulation.integrator.name());
+            return Err(self.bad("simulation.integrator", expected, found).into());
+        };
         Ok(Crossing {
             beam: self.bridge()?.build(),
             car: car.build(),
-            integrator: simulation.integrator.build(),
+            integrator,
             time_step: simulation.time_step,
-            steps: steps as usize,
+            steps: self.steps(simulation)?,
             record_every: simulation.record_every as usize,
             initial_state: match simulation.initial_state {
                 InitialState::Level => system::InitialState::Level,
@@ -228,6 +235,17 @@ impl Scenario {
             },
             gravity: simulation.gravity,
         })
+    }
+
+    /// The number of steps of a run.
+    pub(super) fn steps(&self, simulation: &SimulationSpec) -> Result<usize> {
+        let steps = (simulation.duration / simulation.time_step * (1.0 + 1e-12)).floor();
+        if steps > MOST_STEPS {
+            let expected = format!("at most {MOST_STEPS} steps in simulation.duration");
+            let error = self.bad("simulation.time_step", expected, steps.to_string());
+            return Err(error.remedy("take a larger step").into());
+        }
+        Ok(steps as usize)
     }
 
     fn quantities(&self, beam: &Beam, simulation: &SimulationSpec) -> Result<Vec<Quantity>> {

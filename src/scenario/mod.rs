@@ -20,7 +20,9 @@ mod bridge;
 mod build;
 mod check;
 mod density;
+mod excitation;
 mod irregularity;
+mod oscillator;
 mod overrides;
 mod place;
 mod points;
@@ -43,9 +45,17 @@ use crate::{BadInput, Error, Result};
 
 pub use bridge::{BridgeSpec, SectionSpec};
 pub use density::{DensitySpec, FactorSpec, FixedSpec, GridKind, SmoothingSpec};
+pub use excitation::{
+    CloughPenzienSpec, ExcitationSpec, ExcitationSpectrumSpec, ExponentialSpec, FrequencySpec,
+    FrequencyTableSpec, FrequencyUnit, JenningsSpec, KanaiTajimiSpec, ModulationSpec, WhiteSpec,
+};
 pub use irregularity::{
     DeterministicSpec, FieldKind, FilterForm, IrregularitySpec, ProfileSpec, SecondOrderFilterSpec,
     Sided, SineSpec, SpectrumSpec, SpectrumTableSpec, WavenumberSpec, WavenumberUnit,
+};
+pub use oscillator::{
+    BoucWenSpec, InterpolationKind, LoadKind, OscillatorSpec, PowerLawSpec, RayleighSpec,
+    StoreySpec, VanDerPolSpec,
 };
 pub use points::{PointsSpec, RuleKind};
 pub use reliability::{LimitKind, LimitSpec, ReliabilitySpec};
@@ -165,6 +175,16 @@ impl Scenario {
         self.required()
     }
 
+    /// The table `[excitation]`.
+    pub fn excitation(&self) -> Result<ExcitationSpec> {
+        self.required()
+    }
+
+    /// The table `[oscillator]`.
+    pub fn oscillator(&self) -> Result<OscillatorSpec> {
+        self.required()
+    }
+
     /// The table `[bridge]`.
     pub fn bridge(&self) -> Result<BridgeSpec> {
         self.required()
@@ -199,6 +219,8 @@ impl Scenario {
             title: self.title().map(str::to_owned),
             points: self.optional()?,
             irregularity: self.optional()?,
+            excitation: self.optional()?,
+            oscillator: self.optional()?,
             bridge: self.optional()?,
             vehicle: self.optional()?,
             simulation: self.optional()?,
@@ -206,7 +228,10 @@ impl Scenario {
             reliability: self.optional()?,
         };
         if let (Some(points), Some(irregularity)) = (&all.points, &all.irregularity) {
-            self.check_truncation(points, irregularity)?;
+            self.check_truncation(points, "irregularity", irregularity.field)?;
+        }
+        if let (Some(points), Some(excitation)) = (&all.points, &all.excitation) {
+            self.check_truncation(points, "excitation", excitation.field)?;
         }
         self.check_recorded(&all)?;
         Ok(all)

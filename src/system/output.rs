@@ -46,6 +46,9 @@ impl OutputMap {
             Quantity::Vehicle { part, motion } => tables.vehicle().map(*part, *motion),
             Quantity::ContactForce => OutputMap::ContactForce,
             Quantity::Irregularity => OutputMap::Irregularity,
+            Quantity::Oscillator { .. } | Quantity::BaseAcceleration | Quantity::Force => {
+                unreachable!("no response of a crossing")
+            }
         }
     }
 }

@@ -12,3 +12,4 @@ mod foreign;
 mod growth;
 mod harness;
 mod interruption;
+mod oscillator;

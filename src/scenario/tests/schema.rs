@@ -54,6 +54,8 @@ fn keys(key: &str, json: &Json, found: &mut BTreeSet<String>) {
 fn is_tag(key: &str) -> bool {
     let tags = [
         ".vehicle.kind",
+        ".excitation.spectrum.kind",
+        ".excitation.modulation.kind",
         ".irregularity.spectrum.kind",
         ".irregularity.deterministic.kind",
         ".density.smoothing.rule",
@@ -75,6 +77,10 @@ fn the_specs_and_the_schema_have_the_same_keys() {
         example(),
         full(),
         kinds(&[]),
+        single(),
+        chain(),
+        chain().set(&sets(&CHAIN_KINDS[0])).unwrap(),
+        chain().set(&sets(&CHAIN_KINDS[1])).unwrap(),
         kinds(&[
             r#"density.smoothing={ rule = "factor" }"#,
             r#"reliability.smoothing={ rule = "fixed", width = 1 }"#,
@@ -95,6 +101,23 @@ fn every_key_is_described_and_every_number_has_its_unit() {
     assert!(all.len() > 60);
     let without_unit = [
         ".bridge.damping_ratio",
+        ".excitation.spectrum.ground_damping_ratio",
+        ".excitation.spectrum.filter_damping_ratio",
+        ".oscillator.rayleigh.damping_ratio",
+        ".oscillator.damping_ratio",
+        ".oscillator.power_law_damping.exponent",
+        ".oscillator.bouc_wen.post_yield_ratio",
+        ".oscillator.bouc_wen.amplitude",
+        ".oscillator.bouc_wen.beta",
+        ".oscillator.bouc_wen.gamma",
+        ".oscillator.bouc_wen.exponent",
+        ".oscillator.storey.damping_ratio",
+        ".oscillator.storey.power_law_damping.exponent",
+        ".oscillator.storey.bouc_wen.post_yield_ratio",
+        ".oscillator.storey.bouc_wen.amplitude",
+        ".oscillator.storey.bouc_wen.beta",
+        ".oscillator.storey.bouc_wen.gamma",
+        ".oscillator.storey.bouc_wen.exponent",
         ".density.smoothing.factor",
         ".density.smoothing.width",
         ".irregularity.deterministic.scale",
@@ -140,7 +163,11 @@ fn every_choice_is_one_that_serde_knows() {
                     let rule: RuleKind = serde_json::from_value(json).unwrap();
                     assert_eq!(rule.name(), choice);
                 }
-                ".irregularity.field" => read::<FieldKind>(json),
+                ".irregularity.field" | ".excitation.field" => read::<FieldKind>(json),
+                ".excitation.component" | ".oscillator.excitation" => read::<LoadKind>(json),
+                ".excitation.spectrum.sided" => read::<Sided>(json),
+                ".excitation.spectrum.unit" => read::<FrequencyUnit>(json),
+                ".oscillator.interpolation" => read::<InterpolationKind>(json),
                 ".irregularity.spectrum.form" => read::<FilterForm>(json),
                 ".irregularity.spectrum.sided" => read::<Sided>(json),
                 ".irregularity.spectrum.unit" => read::<WavenumberUnit>(json),
@@ -154,5 +181,5 @@ fn every_choice_is_one_that_serde_knows() {
             }
         }
     }
-    assert_eq!(count, 27);
+    assert_eq!(count, 40);
 }
