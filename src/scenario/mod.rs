@@ -18,6 +18,7 @@
 
 mod bridge;
 mod build;
+mod chain;
 mod check;
 mod density;
 mod excitation;

@@ -3,10 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{IntegratorKind, Scenario, SimulationSpec, Table};
-use crate::quantity::Quantity;
-use crate::system::{self, Chain, Cubic, Damping, Stiffness, Storey};
-use crate::{BadInput, Result};
+use super::{Scenario, Table};
+use crate::BadInput;
+use crate::system::{self, Cubic, Damping, Stiffness, Storey};
 
 /// An oscillator, linear or not, or a chain of them. A single one has its keys here; a chain has a table
 /// `[[oscillator.storey]]` for each storey, from the base upward.
@@ -15,7 +14,8 @@ use crate::{BadInput, Result};
 pub struct OscillatorSpec {
     #[serde(flatten)]
     pub single: StoreySpec,
-    /// What moves it; by default nothing does but its initial state.
+    /// What moves it; by default the component of the table `[excitation]`, and without one nothing but its
+    /// initial state.
     pub excitation: Option<LoadKind>,
     /// The excitation between its samples.
     #[serde(default)]
@@ -179,7 +179,7 @@ impl LoadKind {
         }
     }
 
-    fn build(self) -> system::Load {
+    pub(super) fn build(self) -> system::Load {
         match self {
             LoadKind::BaseAcceleration => system::Load::BaseAcceleration,
             LoadKind::Force => system::Load::Force,
@@ -189,7 +189,7 @@ impl LoadKind {
 
 impl StoreySpec {
     /// The storey; `check` has seen to it that what must be there is.
-    fn build(&self) -> Storey {
+    pub(super) fn build(&self) -> Storey {
         Storey {
             mass: self.mass.unwrap_or(1.0),
             stiffness: match (self.stiffness, self.natural_frequency) {
@@ -265,14 +265,14 @@ impl StoreySpec {
 
 impl OscillatorSpec {
     /// The storeys, from the base upward.
-    fn storeys(&self) -> &[StoreySpec] {
+    pub(super) fn storeys(&self) -> &[StoreySpec] {
         match self.storey.as_slice() {
             [] => std::slice::from_ref(&self.single),
             storeys => storeys,
         }
     }
 
-    fn rayleigh(&self) -> Option<system::Rayleigh> {
+    pub(super) fn rayleigh(&self) -> Option<system::Rayleigh> {
         let highest = self.storeys().len();
         self.rayleigh.as_ref().map(|spec| system::Rayleigh {
             damping_ratio: spec.damping_ratio,
@@ -319,86 +319,5 @@ impl Table for OscillatorSpec {
             }
         }
         Ok(())
-    }
-}
-
-impl Scenario {
-    /// The oscillator and the simulation as one chain, and the quantities to record.
-    ///
-    /// # Errors
-    /// Names of quantities that the chain does not have; another scheme than Runge-Kutta's; a time step at
-    /// which it is not stable.
-    pub fn chain(&self) -> Result<(Chain, Vec<Quantity>)> {
-        let simulation = self.simulation()?;
-        let chain = self.chain_at_any_step(&simulation)?;
-        let quantities = self.quantities_of_chain(&chain, &simulation)?;
-        match chain.largest_stable_step() {
-            Some(largest) if largest < chain.time_step => {
-                let expected =
-                    format!("at most {largest} s, the largest stable step of runge-kutta");
-                let found = format!("{} s", chain.time_step);
-                Err(self
-                    .bad("simulation.time_step", expected, found)
-                    .remedy("take a smaller step (simulation.record_every thins the recording)")
-                    .into())
-            }
-            Some(_) | None => Ok((chain, quantities)),
-        }
-    }
-
-    /// The chain; whether its step is stable is not examined.
-    ///
-    /// # Errors
-    /// A table that is missing or wrong; more than ten million steps.
-    pub fn chain_at_any_step(&self, simulation: &SimulationSpec) -> Result<Chain> {
-        let spec = self.oscillator()?;
-        if simulation.integrator != IntegratorKind::RungeKutta {
-            let found = format!("\"{}\"", simulation.integrator.name());
-            return Err(self
-                .bad(
-                    "simulation.integrator",
-                    "\"runge-kutta\", the scheme of oscillators",
-                    found,
-                )
-                .into());
-        }
-        Ok(Chain {
-            storeys: spec.storeys().iter().map(StoreySpec::build).collect(),
-            rayleigh: spec.rayleigh(),
-            excitation: spec.excitation.map(|load| system::Excitation {
-                load: load.build(),
-                between: match spec.interpolation {
-                    InterpolationKind::Cubic => system::Interpolation::Cubic,
-                    InterpolationKind::Constant => system::Interpolation::Constant,
-                },
-            }),
-            time_step: simulation.time_step,
-            steps: self.steps(simulation)?,
-            record_every: simulation.record_every as usize,
-        })
-    }
-
-    fn quantities_of_chain(&self, chain: &Chain, spec: &SimulationSpec) -> Result<Vec<Quantity>> {
-        let available = Quantity::available_of_chain(chain.storeys.len());
-        let load = chain.excitation.map(|excitation| excitation.load);
-        let is_there = |quantity: &Quantity| match quantity {
-            Quantity::BaseAcceleration => load == Some(system::Load::BaseAcceleration),
-            Quantity::Force => load == Some(system::Load::Force),
-            Quantity::Oscillator { .. } => true,
-            Quantity::Bridge { .. }
-            | Quantity::Vehicle { .. }
-            | Quantity::ContactForce
-            | Quantity::Irregularity => false,
-        };
-        let available: Vec<Quantity> = available.into_iter().filter(is_there).collect();
-        let names: Vec<String> = available.iter().map(Quantity::name).collect();
-        let mut wanted = Vec::new();
-        for name in &spec.record {
-            let index = names.iter().position(|known| known == name);
-            let index =
-                index.ok_or_else(|| self.unknown_quantity("simulation.record", name, &names))?;
-            wanted.push(available[index].clone());
-        }
-        Ok(wanted)
     }
 }

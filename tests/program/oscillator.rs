@@ -34,7 +34,6 @@ time_step = 0.1
 [oscillator]
 natural_frequency = 3.0
 damping_ratio = 0.1
-excitation = "base-acceleration"
 
 [simulation]
 integrator = "runge-kutta"
@@ -62,7 +61,10 @@ fn write_parameters(path: &Path, parameters: &[(&str, Vec<f64>)]) {
     };
     let output = OutputFile::create(path, true).unwrap();
     let mut writer = PointsWriter::create(output, &header).unwrap();
-    let values: Vec<Vec<f64>> = parameters.iter().map(|(_, values)| values.clone()).collect();
+    let values: Vec<Vec<f64>> = parameters
+        .iter()
+        .map(|(_, values)| values.clone())
+        .collect();
     writer
         .write(&PointsBatch {
             first_point: 0,
@@ -130,7 +132,10 @@ fn columns_must_be_scalars_of_the_oscillator_and_hold_its_values() {
         "points.parquet: oscillator.stiffness: expected a scalar that the scenario's [oscillator] has, found none of \
          that name; give it in the scenario as well: a column replaces its value",
     );
-    write_parameters(&points, &[("oscillator.natural_frequency", vec![1.0, -2.0])]);
+    write_parameters(
+        &points,
+        &[("oscillator.natural_frequency", vec![1.0, -2.0])],
+    );
     folder.refuses(
         simulate,
         "points.parquet: oscillator.natural_frequency: row 1: expected a number of at least 0 (rad/s), found -2",
@@ -175,7 +180,10 @@ fn white_noise_gives_the_stationary_variance() {
         assert!((found - 1.0).abs() < 4.0 * error, "{time}: {found}");
         // The velocity: E[u̇²] = ω₀² E[u²], less what lies above 30 rad/s: 4 ζ ω₀/(π 30).
         let found = square(1, time) / (9.0 * exact);
-        assert!((found - 1.0 + 0.0127).abs() < 4.0 * error, "{time}: {found}");
+        assert!(
+            (found - 1.0 + 0.0127).abs() < 4.0 * error,
+            "{time}: {found}"
+        );
         let found = square(2, time) / (2.0 * 2e-3 * 30.0);
         assert!((found - 1.0).abs() < 4.0 * error, "{time}: {found}");
     }

@@ -250,10 +250,8 @@ impl ChainStepper<'_> {
     fn unbounded(&self, points: &Points<'_>) -> Option<usize> {
         let values = self.state.values();
         let is_wild = |lane: &usize| {
-            let displacements = values.iter().skip(*lane).step_by(STATES * LANES);
-            displacements
-                .into_iter()
-                .any(|u| u.is_nan() || u.abs() >= BOUND)
+            let mut displacements = values.iter().skip(*lane).step_by(STATES * LANES);
+            displacements.any(|u| u.is_nan() || u.abs() >= BOUND)
         };
         (0..points.range.len()).find(is_wild)
     }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use serde_json::Value as Json;
 
+use super::oscillator::{CHAIN_KINDS, chain, single};
 use super::*;
 use crate::scenario::shape::Shape;
 
