@@ -35,23 +35,23 @@ pub struct StoreySpec {
     /// Mass; 1 kg where it is left out beside `natural_frequency` (kg).
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass: Option<f64>,
-    /// Stiffness of the spring. Either this or `natural_frequency` (N/m).
+    /// Stiffness of the spring (N/m). Either this or `natural_frequency`.
     #[schemars(range(min = 0))]
     pub stiffness: Option<f64>,
-    /// Natural frequency of the mass on its spring, undamped. Either this or `stiffness` (rad/s).
+    /// Natural frequency of the mass on its spring, undamped (rad/s). Either this or `stiffness`.
     #[schemars(range(min = 0))]
     pub natural_frequency: Option<f64>,
-    /// Linear damping; by default none. Either this or `damping_ratio` (N s/m).
+    /// Linear damping; by default none (N s/m). Either this or `damping_ratio`.
     #[schemars(range(min = 0))]
     pub damping: Option<f64>,
     /// Damping ratio of the mass on its spring. Either this or `damping`, which is then 2 ratio sqrt(mass stiffness).
     #[schemars(range(min = 0))]
     pub damping_ratio: Option<f64>,
-    /// Cubic stiffness: a force of this times the elongation cubed. Either this or `cubic_ratio` (N/m3).
+    /// Cubic stiffness: the force is this times the elongation cubed (N/m3). Either this or `cubic_ratio`.
     #[schemars(range(min = 0))]
     pub cubic_stiffness: Option<f64>,
-    /// Cubic stiffness over the stiffness, epsilon of Duffing's equation: the spring's force is
-    /// stiffness (d + epsilon d^3). Either this or `cubic_stiffness` (1/m2).
+    /// Cubic stiffness over the stiffness, epsilon of Duffing's equation (1/m2). Either this or `cubic_stiffness`: the
+    /// spring's force is k (d + epsilon d^3), with the stiffness k and the elongation d.
     #[schemars(range(min = 0))]
     pub cubic_ratio: Option<f64>,
     /// Damping by a power of the velocity: coefficient |v|^exponent, against the velocity v.

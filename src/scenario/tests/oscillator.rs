@@ -123,7 +123,7 @@ fn what_an_oscillator_cannot_do_is_refused() {
     );
     refused(
         "simulation.time_step=0.6",
-        "--set: simulation.time_step: expected at most 0.559 s, the largest stable step of runge-kutta, found 0.6 s; \
+        "--set: simulation.time_step: expected at most 0.581 s, the largest stable step of runge-kutta, found 0.6 s; \
          take a smaller step (simulation.record_every thins the recording)",
     );
     refused(
