@@ -71,6 +71,16 @@ duration = 1
 record = ["oscillator/displacement", "oscillator/hysteretic_variable"]
 "#;
 
+/// Overrides of `SINGLE` to the other ways of giving the same.
+pub(super) const SINGLE_OTHERWISE: [&str; 6] = [
+    "oscillator.stiffness=",
+    "oscillator.natural_frequency=5",
+    "oscillator.damping_ratio=",
+    "oscillator.damping=1",
+    "oscillator.cubic_ratio=",
+    "oscillator.cubic_stiffness=150",
+];
+
 pub(super) fn single() -> Scenario {
     Scenario::from_text("single.toml", SINGLE).unwrap()
 }

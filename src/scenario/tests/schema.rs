@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde_json::Value as Json;
 
-use super::oscillator::{CHAIN_KINDS, chain, single};
+use super::oscillator::{CHAIN_KINDS, SINGLE_OTHERWISE, chain, single};
 use super::*;
 use crate::scenario::shape::Shape;
 
@@ -79,6 +79,7 @@ fn the_specs_and_the_schema_have_the_same_keys() {
         full(),
         kinds(&[]),
         single(),
+        single().set(&sets(&SINGLE_OTHERWISE)).unwrap(),
         chain(),
         chain().set(&sets(&CHAIN_KINDS[0])).unwrap(),
         chain().set(&sets(&CHAIN_KINDS[1])).unwrap(),
