@@ -4,20 +4,23 @@
 //!
 //! ```text
 //! scenario -> probability (points) -> irregularity (a profile a point) -> points file
+//! scenario -> probability (points) -> excitation (a process a point) -> points file
 //! points file -> ensemble (system + integrate, many points in lockstep) -> recording
 //! recording -> density, reliability -> tables -> plot
 //! two tables of densities (one may be exact) -> comparison -> table -> plot
 //! ```
 //!
-//! Stages meet in files only ([`files`]); the domain ([`probability`], [`irregularity`], [`system`],
-//! [`integrate`], [`ensemble`], [`density`], [`reliability`], [`exact`], [`comparison`]) opens none.
+//! Stages meet in files only ([`files`]); the domain ([`probability`], [`irregularity`],
+//! [`excitation`], [`system`], [`integrate`], [`ensemble`], [`density`], [`reliability`], [`exact`],
+//! [`comparison`]) opens none.
 //!
 //! # Conventions
 //!
 //! SI units everywhere. Upward is positive: displacement y (m), irregularity η (m). Bending moments are
 //! positive in sagging, contact forces in compression. Vehicle coordinates are measured from the
 //! static equilibrium on a level road. Positions x (m) start at the bridge's first end; ξ = v t − approach is the wheel's.
-//! Power spectral densities are two-sided over the wavenumber Ω (rad/m), in m³/rad.
+//! Power spectral densities are two-sided: over the wavenumber Ω (rad/m), in m³/rad, and over the angular
+//! frequency ω (rad/s) of a base acceleration, in m²/s³.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -33,6 +36,7 @@ pub mod density;
 pub mod ensemble;
 pub mod error;
 pub mod exact;
+pub mod excitation;
 pub mod files;
 pub mod integrate;
 pub mod interrupt;

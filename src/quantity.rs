@@ -15,6 +15,15 @@ pub enum Quantity {
     ContactForce,
     /// The irregularity under the wheel.
     Irregularity,
+    /// A response of an oscillator, or of a storey of a chain of them, counted from 1.
+    Oscillator {
+        storey: Option<usize>,
+        response: OscillatorResponse,
+    },
+    /// The acceleration of the base of oscillators.
+    BaseAcceleration,
+    /// The force on an oscillator, or on the uppermost storey.
+    Force,
 }
 
 /// What a section of the bridge does.
@@ -23,6 +32,18 @@ pub enum BridgeResponse {
     Motion(Motion),
     BendingMoment,
     Stress,
+}
+
+/// What a storey does; with a single one, displacement and drift are the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum OscillatorResponse {
+    /// Relative to the base.
+    Motion(Motion),
+    AbsoluteAcceleration,
+    Drift,
+    DriftVelocity,
+    RestoringForce,
+    HystereticVariable,
 }
 
 /// Displacement and its derivatives.
@@ -80,6 +101,70 @@ impl BridgeResponse {
     }
 }
 
+impl OscillatorResponse {
+    /// All of them.
+    pub const ALL: [OscillatorResponse; 8] = [
+        OscillatorResponse::Motion(Motion::Displacement),
+        OscillatorResponse::Motion(Motion::Velocity),
+        OscillatorResponse::Motion(Motion::Acceleration),
+        OscillatorResponse::AbsoluteAcceleration,
+        OscillatorResponse::Drift,
+        OscillatorResponse::DriftVelocity,
+        OscillatorResponse::RestoringForce,
+        OscillatorResponse::HystereticVariable,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            OscillatorResponse::Motion(motion) => motion.name(),
+            OscillatorResponse::AbsoluteAcceleration => "absolute_acceleration",
+            OscillatorResponse::Drift => "drift",
+            OscillatorResponse::DriftVelocity => "drift_velocity",
+            OscillatorResponse::RestoringForce => "restoring_force",
+            OscillatorResponse::HystereticVariable => "hysteretic_variable",
+        }
+    }
+
+    fn unit(self) -> &'static str {
+        match self {
+            OscillatorResponse::Motion(motion) => motion.unit(),
+            OscillatorResponse::AbsoluteAcceleration => "m/s2",
+            OscillatorResponse::Drift => "m",
+            OscillatorResponse::DriftVelocity => "m/s",
+            OscillatorResponse::RestoringForce => "N",
+            OscillatorResponse::HystereticVariable => "1",
+        }
+    }
+
+    fn symbol(self) -> &'static str {
+        match self {
+            OscillatorResponse::Motion(Motion::Displacement) => "u",
+            OscillatorResponse::Motion(Motion::Velocity) => "u̇",
+            OscillatorResponse::Motion(Motion::Acceleration) => "ü",
+            OscillatorResponse::AbsoluteAcceleration => "ü + a_g",
+            OscillatorResponse::Drift => "d",
+            OscillatorResponse::DriftVelocity => "ḋ",
+            OscillatorResponse::RestoringForce => "g",
+            OscillatorResponse::HystereticVariable => "z",
+        }
+    }
+
+    fn description(self) -> &'static str {
+        match self {
+            OscillatorResponse::Motion(Motion::Displacement) => "displacement relative to the base",
+            OscillatorResponse::Motion(Motion::Velocity) => "velocity relative to the base",
+            OscillatorResponse::Motion(Motion::Acceleration) => "acceleration relative to the base",
+            OscillatorResponse::AbsoluteAcceleration => "acceleration, that of the base included",
+            OscillatorResponse::Drift => "displacement relative to the storey below",
+            OscillatorResponse::DriftVelocity => "velocity relative to the storey below",
+            OscillatorResponse::RestoringForce => {
+                "force of the spring below, elastic and hysteretic"
+            }
+            OscillatorResponse::HystereticVariable => "hysteretic variable of the spring below",
+        }
+    }
+}
+
 impl VehiclePart {
     /// All of them.
     pub const ALL: [VehiclePart; 2] = [VehiclePart::Body, VehiclePart::Wheel];
@@ -113,14 +198,38 @@ impl Quantity {
         all
     }
 
-    /// The quantity of that name, at any section.
+    /// Every quantity that a chain of so many oscillators has.
+    pub fn available_of_chain(storeys: usize) -> Vec<Quantity> {
+        let storey = |index: usize| (storeys > 1).then_some(index + 1);
+        let mut all = Vec::new();
+        for storey in (0..storeys).map(storey) {
+            all.extend(
+                OscillatorResponse::ALL.map(|response| Quantity::Oscillator { storey, response }),
+            );
+        }
+        all.extend([Quantity::BaseAcceleration, Quantity::Force]);
+        all
+    }
+
+    /// The quantity of that name, at any section or storey.
     pub fn named(name: &str) -> Option<Quantity> {
+        if let Some(rest) = name.strip_prefix("oscillator/storey-") {
+            let (number, response) = rest.split_once('/')?;
+            let storey = number.parse().ok().filter(|number| *number > 0);
+            let mut all = OscillatorResponse::ALL.into_iter();
+            let response = all.find(|r| r.name() == response)?;
+            return Some(Quantity::Oscillator {
+                storey: Some(storey?),
+                response,
+            });
+        }
         let section = name
             .strip_prefix("bridge/")
             .and_then(|rest| rest.split_once('/'));
         let section = section.map_or("midspan", |(section, _)| section);
         Quantity::available([section])
             .into_iter()
+            .chain(Quantity::available_of_chain(1))
             .find(|q| q.name() == name)
     }
 
@@ -135,6 +244,12 @@ impl Quantity {
             }
             Quantity::ContactForce => "vehicle/wheel/contact_force".to_owned(),
             Quantity::Irregularity => "vehicle/wheel/irregularity".to_owned(),
+            Quantity::Oscillator { storey, response } => match storey {
+                Some(storey) => format!("oscillator/storey-{storey}/{}", response.name()),
+                None => format!("oscillator/{}", response.name()),
+            },
+            Quantity::BaseAcceleration => "base/acceleration".to_owned(),
+            Quantity::Force => "oscillator/force".to_owned(),
         }
     }
 
@@ -147,8 +262,10 @@ impl Quantity {
                 BridgeResponse::Stress => "Pa",
             },
             Quantity::Vehicle { motion, .. } => motion.unit(),
-            Quantity::ContactForce => "N",
+            Quantity::ContactForce | Quantity::Force => "N",
             Quantity::Irregularity => "m",
+            Quantity::Oscillator { response, .. } => response.unit(),
+            Quantity::BaseAcceleration => "m/s2",
         }
     }
 
@@ -164,8 +281,10 @@ impl Quantity {
                 VehiclePart::Body => format!("{}₁", motion.symbol()),
                 VehiclePart::Wheel => format!("{}₂", motion.symbol()),
             },
-            Quantity::ContactForce => "F".to_owned(),
+            Quantity::ContactForce | Quantity::Force => "F".to_owned(),
             Quantity::Irregularity => "η".to_owned(),
+            Quantity::Oscillator { response, .. } => response.symbol().to_owned(),
+            Quantity::BaseAcceleration => "a_g".to_owned(),
         }
     }
 
@@ -202,6 +321,12 @@ impl Quantity {
                 "contact force of wheel and deck, compression positive".to_owned()
             }
             Quantity::Irregularity => "irregularity under the wheel, upward positive".to_owned(),
+            Quantity::Oscillator { storey, response } => match storey {
+                Some(storey) => format!("storey {storey}: {}", response.description()),
+                None => format!("oscillator: {}", response.description()),
+            },
+            Quantity::BaseAcceleration => "acceleration of the base".to_owned(),
+            Quantity::Force => "force on the oscillator or the uppermost storey".to_owned(),
         }
     }
 }
@@ -221,9 +346,16 @@ mod tests {
                 .all(|n| !n.contains('.') && !n.starts_with('/'))
         );
         assert!(names.contains("bridge/midspan/displacement"));
-        for quantity in all {
+        let chains = [1, 3].map(Quantity::available_of_chain).concat();
+        for quantity in all.into_iter().chain(chains) {
             assert_eq!(Quantity::named(&quantity.name()), Some(quantity));
         }
-        assert_eq!(Quantity::named("oscillator/displacement"), None);
+        for name in [
+            "oscillator/span",
+            "oscillator/storey-0/drift",
+            "oscillator/storey-1",
+        ] {
+            assert_eq!(Quantity::named(name), None, "{name}");
+        }
     }
 }

@@ -4,9 +4,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const DOMAIN: [&str; 10] = [
+const DOMAIN: [&str; 11] = [
     "probability",
     "irregularity",
+    "excitation",
     "system",
     "integrate",
     "ensemble",

@@ -1,15 +1,16 @@
 //! `dpim check`: what a scenario costs and whether its step is stable, before the work.
 
+use super::Context;
 use super::random::{Leading, warnings};
-use super::{Context, excite};
+use super::source::Source;
 use crate::Result;
 use crate::cli;
 use crate::ensemble::LANES;
 use crate::files::recording::band_layout;
 use crate::integrate::Integrator;
 use crate::probability::distribution::Tail;
-use crate::scenario::{Precision, RandomParameters, Scenario, SpectrumSpec};
-use crate::system::{Crossing, largest_stable_step};
+use crate::scenario::{Precision, RandomParameters, Scenario, SimulationSpec, SpectrumSpec};
+use crate::system::{Chain, Crossing, largest_stable_step};
 use std::fmt::Write;
 
 /// Point-steps a core does in a second, for an estimate only: with ten modes and AVX-512 one was
@@ -31,7 +32,7 @@ pub(super) fn run(context: &Context, args: &cli::Check) -> Result<()> {
     let random = super::random::read(&scenario)?;
     describe(&random, &mut write);
     let points = if scenario.has("points") {
-        excitation(context, &scenario, random, &mut write)?
+        points(context, &scenario, random, &mut write)?
     } else {
         None
     };
@@ -41,66 +42,98 @@ pub(super) fn run(context: &Context, args: &cli::Check) -> Result<()> {
     super::print(&text)?;
     // Last, so that all of the above is seen before the verdict.
     if scenario.has("simulation") {
-        scenario.crossing()?;
+        super::model::Model::read(&scenario)?;
     }
     Ok(())
 }
 
-/// Points and irregularity; returns the number of points.
-fn excitation(
+/// Points, irregularity or excitation; returns the number of points.
+fn points(
     context: &Context,
     scenario: &Scenario,
     random: RandomParameters,
     write: &mut impl FnMut(String),
 ) -> Result<Option<usize>> {
     let spec = scenario.points()?;
-    if !scenario.has("irregularity") {
+    if !["irregularity", "excitation", "oscillator"]
+        .iter()
+        .any(|table| scenario.has(table))
+    {
         return Ok(None);
     }
-    let irregularity = scenario.irregularity()?;
-    scenario.check_truncation(&spec, &irregularity)?;
-    let grid = scenario.irregularity_grid(&irregularity)?;
-    let field = excite::read_field(context, scenario, &irregularity, grid)?;
-    let own = field.as_ref().map_or(0, |field| field.dimensions());
+    let source = Source::read(context, scenario, &spec)?;
+    let own = source.irregularity.dimensions();
     let dimensions = random.dimensions() + own;
     let leading = Leading::new(random, &spec, own);
+    let grid = source.irregularity.grid();
     let numbers = grid.count + leading.random.dimensions() + leading.variables;
     let count = scenario.point_count(&spec, dimensions, leading.random.dimensions())?;
     write(format!(
         "points: {count} by {} in {dimensions} standard normal variables",
         spec.rule.name()
     ));
+    describe_source(scenario, &source, write)?;
     write(format!(
-        "irregularity: {} positions from {} to {} m, {} m apart",
-        grid.count,
-        grid.start,
-        grid.position(grid.count - 1),
-        grid.spacing
+        "  points file: about {}",
+        size(count * (8 * numbers + 8))
     ));
-    if let (Some(field), Some(band)) = (&field, &irregularity.wavenumber) {
-        write(format!("  {}", field.describe()));
-        let whole = match &irregularity.spectrum {
+    Ok(Some(count))
+}
+
+/// Irregularity or excitation, where there is one.
+fn describe_source(
+    scenario: &Scenario,
+    source: &Source,
+    write: &mut impl FnMut(String),
+) -> Result<()> {
+    let grid = source.irregularity.grid();
+    if grid.count == 0 {
+        return Ok(());
+    }
+    let in_time = scenario.has("excitation");
+    let (what, places, unit) = if in_time {
+        ("excitation", "times", "s")
+    } else {
+        ("irregularity", "positions", "m")
+    };
+    let end = grid.position(grid.count - 1);
+    write(format!(
+        "{what}: {} {places} from {} to {end} {unit}, {} {unit} apart",
+        grid.count, grid.start, grid.spacing
+    ));
+    let Some(field) = source.irregularity.field() else {
+        return Ok(());
+    };
+    write(format!("  {}", field.describe()));
+    let deviation = field.variance().sqrt();
+    let (band, whole) = if in_time {
+        let band = scenario.excitation()?.frequency;
+        ((f64::from(band.count), band.max), String::new())
+    } else {
+        let spec = scenario.irregularity()?;
+        let whole = match &spec.spectrum {
             Some(SpectrumSpec::SecondOrderFilter(filter)) => {
                 let deviation = filter.build().variance().sqrt();
                 format!(" (of the whole spectrum: {deviation:.6e} m)")
             }
             Some(SpectrumSpec::Table(_)) | None => String::new(),
         };
-        let deviation = field.variance().sqrt();
-        write(format!("  standard deviation {deviation:.6e} m{whole}"));
-        let period = 2.0 * std::f64::consts::PI * f64::from(band.count) / band.max;
-        let length = grid.position(grid.count - 1) - grid.start;
-        if length > 0.5 * period {
-            write(format!(
-                "  note: the field repeats after {period:.1} m (up to the sign): take more wavenumbers"
-            ));
-        }
-    }
+        let band = spec.wavenumber.map_or((1.0, f64::MIN_POSITIVE), |band| {
+            (f64::from(band.count), band.max)
+        });
+        (band, whole)
+    };
+    let measure = if in_time { "m/s2 or N" } else { "m" };
     write(format!(
-        "  points file: about {}",
-        size(count * (8 * numbers + 8))
+        "  standard deviation {deviation:.6e} {measure}{whole}"
     ));
-    Ok(Some(count))
+    let period = 2.0 * std::f64::consts::PI * band.0 / band.1;
+    if end - grid.start > 0.5 * period {
+        write(format!(
+            "  note: it repeats after {period:.1} {unit} (up to the sign): take more of the band"
+        ));
+    }
+    Ok(())
 }
 
 /// The random parameters, with the values that one point in a thousand is below or above.
@@ -136,6 +169,12 @@ fn simulation(
     write: &mut impl FnMut(String),
 ) -> Result<()> {
     let spec = scenario.simulation()?;
+    if scenario.has("oscillator") {
+        let chain = scenario.chain_at_any_step(&spec)?;
+        oscillator(&chain, write);
+        recording(&spec, chain.times().len(), chain.steps, points, write);
+        return Ok(());
+    }
     let crossing = scenario.crossing_at_any_step(&spec)?;
     frequencies(&crossing, write);
     let position = crossing.positions();
@@ -168,7 +207,19 @@ fn simulation(
         };
         write(format!("  {:<17} {bound}{mark}", integrator.name()));
     }
-    let (times, quantities) = (crossing.times().len(), spec.record.len());
+    recording(&spec, crossing.times().len(), crossing.steps, points, write);
+    Ok(())
+}
+
+/// What is recorded, and what that takes.
+fn recording(
+    spec: &SimulationSpec,
+    times: usize,
+    steps: usize,
+    points: Option<usize>,
+    write: &mut impl FnMut(String),
+) {
+    let quantities = spec.record.len();
     let bytes = match spec.precision {
         Precision::F64 => 8,
         Precision::F32 => 4,
@@ -178,7 +229,7 @@ fn simulation(
         "recording: {quantities} quantities at {times} times, blocks of {block} points, bands of {band}"
     ));
     if let Some(points) = points {
-        let steps = points as f64 * (crossing.steps + 1) as f64;
+        let steps = points as f64 * (steps + 1) as f64;
         let seconds = steps / POINT_STEPS_PER_SECOND;
         let held = points.next_multiple_of(LANES).min(band) * times * quantities * 8;
         write(format!(
@@ -190,7 +241,27 @@ fn simulation(
             size(3 * held)
         ));
     }
-    Ok(())
+}
+
+/// Frequencies of the undeformed chain, and its largest step.
+fn oscillator(chain: &Chain, write: &mut impl FnMut(String)) {
+    write("oscillator, undeformed:".to_owned());
+    let ratios = chain.modal_damping_ratios();
+    for (k, (omega, ratio)) in chain.modes().0.iter().zip(ratios).enumerate().take(10) {
+        write(format!(
+            "  mode {:>2}: {:>10.4} Hz, {omega:>10.4} rad/s, damping ratio {ratio:.4}",
+            k + 1,
+            omega / (2.0 * std::f64::consts::PI)
+        ));
+    }
+    let given = chain.time_step;
+    write(match chain.largest_stable_step() {
+        None => format!("largest stable step: any, given: {given} s"),
+        Some(largest) if largest < given => {
+            format!("largest stable step: {largest} s, given: {given} s, NOT STABLE")
+        }
+        Some(largest) => format!("largest stable step: {largest} s, given: {given} s"),
+    });
 }
 
 fn frequencies(crossing: &Crossing, write: &mut impl FnMut(String)) {

@@ -2,19 +2,14 @@
 
 use super::Context;
 use super::random::{Drawn, Leading};
+use super::source::Source;
 use crate::cli;
 use crate::files::points::{PointsBatch, PointsHeader, PointsWriter, ROW_GROUP};
-use crate::files::{Kind, OutputFile, Provenance, Weights, tabulated};
-use crate::irregularity::{
-    Deterministic, Grid, Irregularity, PowerSpectralDensity, RandomField, SpectralRepresentation,
-    Tabulated,
-};
+use crate::files::{Kind, OutputFile, Provenance, Weights};
+use crate::irregularity::Irregularity;
 use crate::probability::discrepancy::Quality;
 use crate::probability::{PointRule, UnitVectors};
-use crate::scenario::{
-    DeterministicSpec, IrregularitySpec, ProfileSpec, Scenario, Sided, SpectrumSpec,
-    SpectrumTableSpec, WavenumberUnit,
-};
+use crate::scenario::{IrregularitySpec, PointsSpec, Scenario};
 use crate::{Result, interrupt};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -29,21 +24,25 @@ pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
         &[("--output", &args.output.output)],
     )?;
     let scenario = load(args)?;
-    let spec = scenario.irregularity()?;
-    let irregularity = read_irregularity(context, &scenario, &spec)?;
-    let chosen = if args.pseudo_excitation {
-        harmonics(&scenario, &spec, &irregularity)?
+    let (source, chosen) = if args.pseudo_excitation {
+        let spec = scenario.irregularity()?;
+        let source = Source::irregularity(context, &scenario, &spec)?;
+        let chosen = harmonics(&scenario, &spec, &source.irregularity)?;
+        (source, chosen)
     } else {
-        representative_points(context, &scenario, &spec, &irregularity)?
+        let points = scenario.points()?;
+        let source = Source::read(context, &scenario, &points)?;
+        let chosen = representative_points(context, &scenario, &points, &source.irregularity)?;
+        (source, chosen)
     };
     let rule = chosen.rule.as_ref();
-    let grid = irregularity.grid();
+    let grid = source.irregularity.grid();
     let header = PointsHeader {
         weights: chosen.weights,
         position_start: grid.start,
         position_step: grid.spacing,
         positions: grid.count,
-        components: vec!["vertical".to_owned()],
+        components: source.component.iter().map(|c| c.to_string()).collect(),
         parameters: chosen.leading.columns(),
         variables: chosen.leading.variables,
         dimensions: Some(rule.dimensions()),
@@ -56,20 +55,20 @@ pub(super) fn run(context: &Context, args: &cli::Excite) -> Result<()> {
         ),
     };
     context.detail(format!(
-        "{} points by {}, {} variables, {} positions from {} m, {}",
+        "{} points by {}, {} variables, {} positions or times from {}, {}",
         rule.count(),
         chosen.name,
         rule.dimensions(),
         grid.count,
         grid.start,
-        irregularity.describe(),
+        source.irregularity.describe(),
     ));
     if !args.pseudo_excitation {
         report(context, rule);
     }
     let output = OutputFile::create(&args.output.output, !args.output.no_clobber)?;
     let writer = PointsWriter::create(output, &header)?;
-    write(context, rule, &chosen.leading, &irregularity, writer)
+    write(context, rule, &chosen.leading, &source, writer)
 }
 
 /// What is to know about the points: their figures of merit where details are asked for.
@@ -107,15 +106,13 @@ struct Chosen {
 fn representative_points(
     context: &Context,
     scenario: &Scenario,
-    spec: &IrregularitySpec,
+    points: &PointsSpec,
     irregularity: &Irregularity,
 ) -> Result<Chosen> {
-    let points = scenario.points()?;
-    scenario.check_truncation(&points, spec)?;
-    let leading = Leading::read(context, scenario, &points, irregularity.dimensions())?;
+    let leading = Leading::read(context, scenario, points, irregularity.dimensions())?;
     let parameters = leading.random.dimensions();
     let dimensions = parameters + irregularity.dimensions();
-    let rule = scenario.point_rule(&points, dimensions, parameters)?;
+    let rule = scenario.point_rule(points, dimensions, parameters)?;
     Ok(Chosen {
         rule,
         leading,
@@ -184,7 +181,7 @@ fn write(
     context: &Context,
     rule: &dyn PointRule,
     leading: &Leading,
-    irregularity: &Irregularity,
+    source: &Source,
     mut writer: PointsWriter,
 ) -> Result<()> {
     struct Group {
@@ -200,11 +197,12 @@ fn write(
             for group in groups {
                 let probability: Vec<f64> =
                     group.points.clone().map(|q| rule.probability(q)).collect();
+                let rows = [group.rows.as_slice()];
                 writer.write(&PointsBatch {
                     first_point: group.points.start as u32,
                     probability: &probability,
                     parameters: &group.drawn.parameters,
-                    irregularity: &[&group.rows],
+                    irregularity: &rows[..usize::from(source.component.is_some())],
                     variables: &group.drawn.variables,
                 })?;
                 // Memory that finds no room on its way back is let go.
@@ -220,12 +218,13 @@ fn write(
             }
             let points = first..(first + ROW_GROUP).min(rule.count());
             let (mut rows, mut drawn) = spare.try_recv().unwrap_or_default();
-            rows.resize(points.len() * irregularity.grid().count, 0.0);
+            rows.resize(points.len() * source.irregularity.grid().count, 0.0);
+            let irregularity = &source.irregularity;
             fill(
                 rule,
                 leading,
                 irregularity,
-                points.start,
+                points.clone(),
                 &mut rows,
                 &mut drawn,
             );
@@ -254,156 +253,35 @@ fn write(
     })
 }
 
-/// Fills `[point][position]` from the point `first` on, and what is drawn beside.
+/// Fills `[point][position]` of these points, and what is drawn beside.
 fn fill(
     rule: &dyn PointRule,
     leading: &Leading,
     irregularity: &Irregularity,
-    first: usize,
+    points: Range<usize>,
     rows: &mut [f64],
     drawn: &mut Drawn,
 ) {
     let positions = irregularity.grid().count;
-    let pieces = drawn.pieces(leading, rows.len() / positions, PART);
-    rows.par_chunks_mut(PART * positions)
+    let pieces = drawn.pieces(leading, points.len(), PART);
+    let mut rest = rows;
+    let parts: Vec<_> = points
+        .clone()
+        .step_by(PART)
         .zip(pieces)
-        .enumerate()
-        .for_each_init(Vec::new, |variables, (part, (rows, piece))| {
-            let count = rows.len() / positions;
-            let start = first + part * PART;
+        .map(|(first, piece)| {
+            let part = first..(first + PART).min(points.end);
+            let (rows, behind) = std::mem::take(&mut rest).split_at_mut(part.len() * positions);
+            rest = behind;
+            (part, piece, rows)
+        })
+        .collect();
+    parts
+        .into_par_iter()
+        .for_each_init(Vec::new, |variables, (part, piece, rows)| {
+            let count = part.len();
             variables.resize(rule.dimensions() * count, 0.0);
-            rule.standard_normals(start..start + count, variables);
+            rule.standard_normals(part, variables);
             irregularity.fill(piece.take(variables), count, rows);
         });
-}
-
-/// The irregularity of a scenario, its files read.
-pub(super) fn read_irregularity(
-    context: &Context,
-    scenario: &Scenario,
-    spec: &IrregularitySpec,
-) -> Result<Irregularity> {
-    let grid = scenario.irregularity_grid(spec)?;
-    let field = read_field(context, scenario, spec, grid)?;
-    let deterministic = match &spec.deterministic {
-        Some(deterministic) => read_deterministic(context, scenario, deterministic, grid)?,
-        None => Deterministic::Smooth,
-    };
-    Ok(Irregularity::new(grid, &deterministic, field))
-}
-
-/// The random field of a scenario, where it has a spectrum.
-pub(super) fn read_field(
-    context: &Context,
-    scenario: &Scenario,
-    spec: &IrregularitySpec,
-    grid: Grid,
-) -> Result<Option<Box<dyn RandomField>>> {
-    let (Some(spectrum), Some(band)) = (&spec.spectrum, &spec.wavenumber) else {
-        return Ok(None);
-    };
-    let spectrum = read_spectrum(context, scenario, spectrum, band.max)?;
-    let spectrum = SpectralRepresentation::new(spectrum.as_ref(), band.max, band.count as usize);
-    scenario.random_field(spec, spectrum, grid).map(Some)
-}
-
-/// The spectrum of a scenario, its table read where it has one.
-pub(super) fn read_spectrum(
-    context: &Context,
-    scenario: &Scenario,
-    spec: &SpectrumSpec,
-    highest: f64,
-) -> Result<Box<dyn PowerSpectralDensity>> {
-    match spec {
-        SpectrumSpec::SecondOrderFilter(filter) => Ok(Box::new(filter.build())),
-        SpectrumSpec::Table(table) => {
-            let spectrum = read_table(scenario, table)?;
-            let (least, largest) = spectrum.band();
-            if highest > largest * (1.0 + 1e-9) {
-                context.note(format!(
-                    "the spectrum's table covers {least:.6} to {largest:.6} rad/m; beyond it, up to {highest} rad/m, the density is zero"
-                ));
-            }
-            Ok(Box::new(spectrum))
-        }
-    }
-}
-
-fn read_table(scenario: &Scenario, spec: &SpectrumTableSpec) -> Result<Tabulated> {
-    let path = scenario.resolve(&spec.file);
-    let columns = (
-        spec.wavenumber_column.as_deref(),
-        spec.density_column.as_deref(),
-    );
-    let (wavenumbers, densities) = tabulated::read_columns(&path, columns.0, columns.1)?;
-    let cycles = match spec.unit {
-        WavenumberUnit::CyclePerMetre => true,
-        WavenumberUnit::RadianPerMetre => false,
-    };
-    let one_sided = match spec.sided {
-        Sided::One => true,
-        Sided::Two => false,
-    };
-    Tabulated::new(&wavenumbers, &densities, cycles, one_sided).map_err(|error| {
-        super::bad_file(
-            &path,
-            "",
-            "a spectrum: wavenumbers that increase, densities that are not negative",
-            error.to_string(),
-        )
-        .into()
-    })
-}
-
-fn read_deterministic(
-    context: &Context,
-    scenario: &Scenario,
-    spec: &DeterministicSpec,
-    grid: Grid,
-) -> Result<Deterministic> {
-    match spec {
-        DeterministicSpec::Smooth {} => Ok(Deterministic::Smooth),
-        DeterministicSpec::Sine(sine) => Ok(Deterministic::Sine {
-            amplitude: sine.amplitude,
-            wavelength: sine.wavelength,
-            phase: sine.phase,
-        }),
-        DeterministicSpec::Profile(profile) => read_profile(context, scenario, profile, grid),
-    }
-}
-
-/// A measured profile; how it was resampled is said.
-fn read_profile(
-    context: &Context,
-    scenario: &Scenario,
-    spec: &ProfileSpec,
-    grid: Grid,
-) -> Result<Deterministic> {
-    let path = scenario.resolve(&spec.file);
-    let columns = (
-        spec.position_column.as_deref(),
-        spec.height_column.as_deref(),
-    );
-    let (positions, mut heights) = tabulated::read_columns(&path, columns.0, columns.1)?;
-    let (first, last) = (positions[0], positions[positions.len() - 1]);
-    let (start, end) = (grid.position(0), grid.position(grid.count - 1));
-    let margin = 1e-9 * (1.0 + end.abs());
-    if first > start + margin || last < end - margin {
-        let expected = format!(
-            "a profile from {start} to {end} m, as irregularity.start and irregularity.length ask"
-        );
-        let error = super::bad_file(&path, "", expected, format!("one from {first} to {last} m"));
-        return Err(error
-            .remedy("shorten irregularity.length or measure further")
-            .into());
-    }
-    context.note(format!(
-        "{}: {} positions, {:.4} m apart on average, resampled to {} m by straight lines",
-        path.display(),
-        positions.len(),
-        (last - first) / (positions.len() - 1) as f64,
-        grid.spacing
-    ));
-    heights.iter_mut().for_each(|h| *h *= spec.scale);
-    Ok(Deterministic::Profile { positions, heights })
 }

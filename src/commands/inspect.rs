@@ -2,7 +2,7 @@
 
 use crate::Result;
 use crate::cli;
-use crate::files::points::PointsReader;
+use crate::files::points::{PointsReader, component_unit, is_in_time};
 use crate::files::recording::{Axis, Recordings};
 use crate::files::tables::{Units, read_comparison, read_density, read_moments, read_reliability};
 use crate::files::{Kind, Provenance, Weights, identify};
@@ -116,16 +116,24 @@ fn points(path: &Path, text: &mut String) -> Result<()> {
             Weights::Harmonics => String::new(),
         }
     );
-    line!(
-        text,
-        "{} positions from {} m, {} m apart, to {} m",
-        header.positions,
-        header.position_start,
-        header.position_step,
-        header.position_start + (header.positions as f64 - 1.0) * header.position_step
-    );
     if header.variables > 0 {
         line!(text, "{} leading variables a point", header.variables);
+    }
+    let in_time = header.components.iter().any(|name| is_in_time(name));
+    let (places, unit) = if in_time {
+        ("times", "s")
+    } else {
+        ("positions", "m")
+    };
+    if header.positions > 0 {
+        line!(
+            text,
+            "{} {places} from {} {unit}, {} {unit} apart, to {} {unit}",
+            header.positions,
+            header.position_start,
+            header.position_step,
+            header.position_start + (header.positions as f64 - 1.0) * header.position_step
+        );
     }
     let mut spans = vec![Span::NONE; header.components.len()];
     let mut parameters = vec![Span::NONE; header.parameters.len()];
@@ -145,7 +153,7 @@ fn points(path: &Path, text: &mut String) -> Result<()> {
         line!(text, "  {name} [{unit}] {span}");
     }
     for (name, span) in header.components.iter().zip(spans) {
-        line!(text, "  {name} [m] {span}");
+        line!(text, "  {name} [{}] {span}", component_unit(name));
     }
     Ok(())
 }

@@ -5,6 +5,7 @@ mod compare;
 mod completions;
 mod density;
 mod exact;
+mod excitation;
 mod excite;
 mod inspect;
 mod model;
@@ -16,6 +17,7 @@ mod responses;
 mod schema;
 mod simulate;
 mod smoothing;
+mod source;
 
 use crate::cli::{Cli, Command, General, OptionalScenarioArgs, ScenarioArgs};
 use crate::scenario::Scenario;

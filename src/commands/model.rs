@@ -1,10 +1,10 @@
 //! The system of a scenario, and how it meets a points file.
 
-use crate::ensemble::{Crossings, System, WheelPath};
+use crate::ensemble::{Chains, Crossings, System, WheelPath};
 use crate::files::points::PointsReader;
 use crate::quantity::Quantity;
-use crate::scenario::{Scenario, VARIED_KEYS, nearest};
-use crate::system::Crossing;
+use crate::scenario::{LoadKind, Scenario, VARIED_KEYS, nearest};
+use crate::system::{Chain, Crossing, Load};
 use crate::{BadInput, Result};
 use std::path::Path;
 
@@ -14,11 +14,16 @@ const VERTICAL: &str = "vertical";
 /// What is simulated.
 pub(super) enum Model {
     Crossing(Box<Crossing>),
+    Chain(Box<Chain>),
 }
 
 impl Model {
     /// The scenario's system and the quantities to record.
     pub fn read(scenario: &Scenario) -> Result<(Model, Vec<Quantity>)> {
+        if scenario.has("oscillator") {
+            let (chain, quantities) = scenario.chain()?;
+            return Ok((Model::Chain(Box::new(chain)), quantities));
+        }
         let (crossing, quantities) = scenario.crossing()?;
         Ok((Model::Crossing(Box::new(crossing)), quantities))
     }
@@ -27,20 +32,27 @@ impl Model {
     pub fn note(&self) -> Option<String> {
         match self {
             Model::Crossing(crossing) => ends_before_the_bridge(crossing),
+            Model::Chain(_) => None,
         }
     }
 
     /// The column of the points file that moves the system; none where nothing does.
-    pub fn component(&self, points: &Path, reader: &PointsReader) -> Result<Option<usize>> {
+    pub fn component(&self, reader: &PointsReader) -> Result<Option<usize>> {
         let (name, meaning) = match self {
             Model::Crossing(_) => (VERTICAL, "the irregularity's column, a list of heights (m)"),
+            Model::Chain(chain) => match chain.excitation.map(|excitation| excitation.load) {
+                None => return Ok(None),
+                Some(Load::BaseAcceleration) => (
+                    LoadKind::BaseAcceleration.component(),
+                    "the excitation's column, a list of accelerations (m/s2)",
+                ),
+                Some(Load::Force) => (
+                    LoadKind::Force.component(),
+                    "the excitation's column, a list of forces (N)",
+                ),
+            },
         };
-        let components = &reader.header().components;
-        let found = components.iter().position(|component| component == name);
-        found.map(Some).ok_or_else(|| {
-            let found = format!("only {}", components.join(", "));
-            super::bad_file(points, name, meaning, found).into()
-        })
+        reader.component(name, meaning).map(Some)
     }
 
     /// The system with the points' excitation and random parameters.
@@ -71,6 +83,7 @@ impl Model {
                     crossing_of,
                 )))
             }
+            Model::Chain(chain) => chains(scenario, chain, quantities, points, reader),
         }
     }
 }
@@ -130,4 +143,76 @@ fn wheel_path(points: &Path, crossing: &Crossing, reader: &PointsReader) -> Resu
         .remedy("set irregularity.start and irregularity.length, or shorten simulation.duration")
         .into()
     })
+}
+
+fn chains(
+    scenario: &Scenario,
+    chain: &Chain,
+    quantities: &[Quantity],
+    points: &Path,
+    reader: &PointsReader,
+) -> Result<Box<dyn System>> {
+    let header = reader.header();
+    let random = random_scalars(scenario, chain, points, reader)?;
+    let (start, step, count) = (
+        header.position_start,
+        header.position_step,
+        header.positions,
+    );
+    let chains = Chains::new(
+        chain.clone(),
+        quantities.to_vec(),
+        random,
+        (start, step, count),
+    );
+    let chains = chains.ok_or_else(|| -> BadInput {
+        let last = chain.steps as f64 * chain.time_step;
+        let end = start + (count as f64 - 1.0) * step;
+        let expected = format!("times (four at least) that cover the run from 0 to {last} s");
+        let found = format!("{count} from {start} to {end} s");
+        super::bad_file(points, "time_step", expected, found)
+            .remedy("set excitation.duration, or shorten simulation.duration")
+    })?;
+    Ok(Box::new(chains))
+}
+
+/// The columns of `[oscillator]`'s scalars, by their place among the parameters and their key without
+/// `oscillator.`; every value is one that the scenario could have.
+fn random_scalars(
+    scenario: &Scenario,
+    chain: &Chain,
+    points: &Path,
+    reader: &PointsReader,
+) -> Result<Vec<(usize, String)>> {
+    let mut trial = chain.clone();
+    let mut random = Vec::new();
+    for (place, (name, _)) in reader.header().parameters.iter().enumerate() {
+        let Some(key) = name.strip_prefix("oscillator.") else {
+            continue;
+        };
+        if trial.scalar_mut(key).is_none() {
+            let expected = "a scalar that the scenario's [oscillator] has";
+            let found = "none of that name";
+            return Err(super::bad_file(points, name, expected, found)
+                .remedy("give it in the scenario as well: a column replaces its value")
+                .into());
+        }
+        random.push((place, key.to_owned()));
+    }
+    if random.is_empty() {
+        return Ok(random);
+    }
+    let count = reader.header().count;
+    for batch in reader.parameter_batches(0..count, 4096)? {
+        let batch = batch?;
+        for (place, key) in &random {
+            let name = format!("oscillator.{key}");
+            if let Some((row, expected)) = scenario.first_bad(&name, &batch.parameters[*place]) {
+                let at = format!("{name}: row {}", batch.first_point as usize + row);
+                let found = batch.parameters[*place][row].to_string();
+                return Err(super::bad_file(points, &at, expected, found).into());
+            }
+        }
+    }
+    Ok(random)
 }

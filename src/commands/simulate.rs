@@ -33,7 +33,13 @@ pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
     let reader = PointsReader::open(&args.points)?;
     check_harmonics(args, &scenario, &reader)?;
     let range = checked_range(args, reader.header().count)?;
-    let component = model.component(&args.points, &reader)?;
+    let component = model.component(&reader)?;
+    if let (None, Some(name)) = (component, reader.header().components.first()) {
+        context.note(format!(
+            "{}: {name} moves nothing: the scenario has no oscillator.excitation",
+            args.points.display()
+        ));
+    }
     let system = model.system(&scenario, &quantities, &args.points, &reader)?;
     let header = header(&scenario, &simulation, &quantities, &reader, &range, args);
     let output = OutputFile::create(&args.output.output, !args.output.no_clobber)?;

@@ -6,6 +6,7 @@
 //! on the vectors' width, or on the threads.
 
 mod batch;
+mod chain;
 mod crossing;
 mod kernel;
 mod lanes;
@@ -19,6 +20,7 @@ mod system;
 mod vehicle;
 
 pub use batch::{Batch, Divergence};
+pub use chain::Chains;
 pub use crossing::{CrossingOf, Crossings};
 pub use lanes::LANES;
 pub use path::WheelPath;

@@ -30,6 +30,8 @@ pub struct Irregularity {
     /// η₀ at the positions (m).
     mean: Vec<f64>,
     field: Option<Box<dyn RandomField>>,
+    /// A factor on everything at each position.
+    modulation: Option<Vec<f64>>,
 }
 
 impl Irregularity {
@@ -45,6 +47,17 @@ impl Irregularity {
                 .map(|j| deterministic.height(grid.position(j)))
                 .collect(),
             field,
+            modulation: None,
+        }
+    }
+
+    /// The same times a factor that depends on the position (or the time of a process).
+    pub fn modulated(self, factor: impl Fn(f64) -> f64) -> Self {
+        let grid = self.grid;
+        let factors = (0..grid.count).map(|j| factor(grid.position(j)));
+        Irregularity {
+            modulation: Some(factors.collect()),
+            ..self
         }
     }
 
@@ -66,12 +79,21 @@ impl Irregularity {
     /// Fills `rows` `[point][position]` (m) from the variables `[dimension][point]`.
     pub fn fill(&self, variables: &[f64], points: usize, rows: &mut [f64]) {
         debug_assert_eq!(rows.len(), points * self.grid.count);
+        if self.grid.count == 0 {
+            return;
+        }
         for row in rows.chunks_exact_mut(self.grid.count) {
             row.copy_from_slice(&self.mean);
         }
         if let Some(field) = &self.field {
             debug_assert_eq!(variables.len(), points * field.dimensions());
             field.add(variables, points, rows);
+        }
+        if let Some(modulation) = &self.modulation {
+            for row in rows.chunks_exact_mut(self.grid.count) {
+                let factors = row.iter_mut().zip(modulation);
+                factors.for_each(|(value, factor)| *value *= factor);
+            }
         }
     }
 
@@ -81,7 +103,7 @@ impl Irregularity {
             || "no random field".to_owned(),
             |field| {
                 format!(
-                    "{}, standard deviation {:.6e} m",
+                    "{}, standard deviation {:.6e}",
                     field.describe(),
                     field.variance().sqrt()
                 )

@@ -113,7 +113,7 @@ impl RandomField for GaussianField {
 
     fn describe(&self) -> String {
         format!(
-            "{} wavenumbers of normal amplitudes, sums by {}",
+            "{} harmonics of normal amplitudes, sums by {}",
             self.representation.amplitudes().len(),
             self.synthesis.method().name()
         )
@@ -173,7 +173,7 @@ impl RandomField for RandomPhaseField {
 
     fn describe(&self) -> String {
         format!(
-            "{} wavenumbers of random phase, sums by {}",
+            "{} harmonics of random phase, sums by {}",
             self.representation.amplitudes().len(),
             self.synthesis.method().name()
         )

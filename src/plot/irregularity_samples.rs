@@ -1,4 +1,4 @@
-//! Irregularity samples over their positions.
+//! Samples of an irregularity over positions, or of an excitation over times.
 
 use super::axes::{Axis, Frame, left_margin};
 use super::canvas::Stroke;
@@ -11,14 +11,16 @@ use super::units::{Label, Unit, axis_label};
 use super::{Image, RIGHT_MARGIN};
 use crate::Result;
 
-/// Irregularity samples, one line each.
+/// Samples of an irregularity or an excitation, one line each.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IrregularitySamples<'a> {
     /// The irregularity and its unit, such as `r(x)` and `m`.
     pub label: Label<'a>,
-    /// m.
+    /// What it is given over, such as `Position, x (m)`.
+    pub place: &'a str,
+    /// m or s.
     pub position_start: f64,
-    /// m, positive.
+    /// m or s, positive.
     pub position_step: f64,
     /// Name (`point 17`) and values of each sample.
     pub samples: &'a [(String, &'a [f64])],
@@ -53,7 +55,7 @@ impl IrregularitySamples<'_> {
             .max()
             .unwrap_or(2);
         let position = |index: usize| self.position_start + index as f64 * self.position_step;
-        let x = Axis::linear("Position, x (m)", position(0), position(longest - 1));
+        let x = Axis::linear(self.place, position(0), position(longest - 1));
 
         let few = self.samples.len() <= 4;
         let stroke = |index| Stroke::solid(line_colour(index), if few { 1.6 } else { 1.1 });

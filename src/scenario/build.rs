@@ -21,7 +21,7 @@ use crate::system::{self, Beam, BumpStop, Crossing, QuarterCar, Section};
 use crate::{BadInput, Result};
 
 /// Positions of an irregularity, at most: rows of more would not fit in memory by the thousand.
-const MOST_POSITIONS: usize = 1_000_000;
+pub(super) const MOST_POSITIONS: usize = 1_000_000;
 
 /// Time steps of a run, at most: what all points share is kept for each of them.
 const MOST_STEPS: f64 = 1e7;
@@ -128,13 +128,20 @@ impl QuarterCarSpec {
 }
 
 impl IntegratorKind {
-    pub fn build(self) -> Integrator {
+    /// The scheme of a crossing; none for those that are not.
+    pub fn build(self) -> Option<Integrator> {
         match self {
-            IntegratorKind::ExplicitNewmark => Integrator::ExplicitNewmark,
-            IntegratorKind::Newmark => Integrator::Newmark,
-            IntegratorKind::Zhai => Integrator::Zhai,
-            IntegratorKind::Exponential => Integrator::Exponential,
+            IntegratorKind::ExplicitNewmark => Some(Integrator::ExplicitNewmark),
+            IntegratorKind::Newmark => Some(Integrator::Newmark),
+            IntegratorKind::Zhai => Some(Integrator::Zhai),
+            IntegratorKind::Exponential => Some(Integrator::Exponential),
+            IntegratorKind::RungeKutta => None,
         }
+    }
+
+    /// The scheme's name in a scenario.
+    pub fn name(self) -> &'static str {
+        self.build().map_or("runge-kutta", Integrator::name)
     }
 }
 
@@ -233,38 +240,39 @@ impl Scenario {
     /// A Karhunen-Loeve expansion that takes too long, or of no variance.
     pub fn random_field(
         &self,
-        spec: &IrregularitySpec,
+        table: &str,
+        field: FieldKind,
+        terms: Option<usize>,
         spectrum: SpectralRepresentation,
         grid: Grid,
     ) -> Result<Box<dyn RandomField>> {
-        let terms = spec.terms.map(|terms| terms as usize);
-        match spec.field {
+        match field {
             FieldKind::Gaussian => Ok(Box::new(GaussianField::new(spectrum, grid))),
             FieldKind::RandomPhase => Ok(Box::new(RandomPhaseField::new(spectrum, grid))),
             FieldKind::KarhunenLoeve => match KarhunenLoeve::new(&spectrum, grid, terms) {
                 Ok(field) => Ok(Box::new(field)),
-                Err(error) => Err(self.no_expansion(error).into()),
+                Err(error) => Err(self.no_expansion(table, error).into()),
             },
         }
     }
 
-    fn no_expansion(&self, error: KarhunenLoeveError) -> BadInput {
+    fn no_expansion(&self, table: &str, error: KarhunenLoeveError) -> BadInput {
         let found = error.to_string();
         match error {
             KarhunenLoeveError::NoVariance => self.bad(
-                "irregularity.spectrum",
-                "a density above zero somewhere up to irregularity.wavenumber.max",
+                &format!("{table}.spectrum"),
+                "a density above zero somewhere in its band",
                 found,
             ),
             KarhunenLoeveError::TooManyTerms { .. }
             | KarhunenLoeveError::TooManyPositions { .. } => self
                 .bad(
-                    "irregularity.field",
+                    &format!("{table}.field"),
                     "an expansion that takes some seconds",
                     found,
                 )
                 .remedy(
-                    "make irregularity.length or wavenumber.max smaller or the spacing larger, or take the field \"gaussian\"",
+                    "make the length or the band smaller or the spacing larger, or take the field \"gaussian\"",
                 ),
         }
     }
@@ -299,18 +307,18 @@ impl Scenario {
     /// A table that is missing or wrong; more than ten million steps.
     pub fn crossing_at_any_step(&self, simulation: &SimulationSpec) -> Result<Crossing> {
         let VehicleSpec::QuarterCar(car) = self.vehicle()?;
-        let steps = (simulation.duration / simulation.time_step * (1.0 + 1e-12)).floor();
-        if steps > MOST_STEPS {
-            let expected = format!("at most {MOST_STEPS} steps in simulation.duration");
-            let error = self.bad("simulation.time_step", expected, steps.to_string());
-            return Err(error.remedy("take a larger step").into());
-        }
+        let Some(integrator) = simulation.integrator.build() else {
+            let names = Integrator::ALL.map(|integrator| format!("{:?}", integrator.name()));
+            let expected = format!("a scheme of crossings, one of {}", names.join(", "));
+            let found = format!("{:?}", simulation.integrator.name());
+            return Err(self.bad("simulation.integrator", expected, found).into());
+        };
         Ok(Crossing {
             beam: self.bridge()?.build(),
             car: car.build(),
-            integrator: simulation.integrator.build(),
+            integrator,
             time_step: simulation.time_step,
-            steps: steps as usize,
+            steps: self.steps(simulation)?,
             record_every: simulation.record_every as usize,
             initial_state: match simulation.initial_state {
                 InitialState::Level => system::InitialState::Level,
@@ -318,6 +326,17 @@ impl Scenario {
             },
             gravity: simulation.gravity,
         })
+    }
+
+    /// The number of steps of a run.
+    pub(super) fn steps(&self, simulation: &SimulationSpec) -> Result<usize> {
+        let steps = (simulation.duration / simulation.time_step * (1.0 + 1e-12)).floor();
+        if steps > MOST_STEPS {
+            let expected = format!("at most {MOST_STEPS} steps in simulation.duration");
+            let error = self.bad("simulation.time_step", expected, steps.to_string());
+            return Err(error.remedy("take a larger step").into());
+        }
+        Ok(steps as usize)
     }
 
     fn quantities(&self, beam: &Beam, simulation: &SimulationSpec) -> Result<Vec<Quantity>> {

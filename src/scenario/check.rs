@@ -32,6 +32,19 @@ pub(super) fn top_table(scenario: &Scenario, name: &str, table: &Item) -> Result
     item(scenario, name, schema, &Node::from(table))
 }
 
+impl Scenario {
+    /// The first of the values that the number at `key` may not have, and what was expected.
+    pub fn first_bad(&self, key: &str, values: &[f64]) -> Option<(usize, String)> {
+        let path: Vec<&str> = key.split('.').collect();
+        let shape = Shape::of(schema::at(&path)?);
+        let Shape::Number(bounds, _) = &shape else {
+            return None;
+        };
+        let at = values.iter().position(|value| !bounds.hold(*value))?;
+        Some((at, shape.expected_for(Some(values[at]))))
+    }
+}
+
 /// Any part of a document.
 enum Node<'a> {
     Table(&'a dyn TableLike),

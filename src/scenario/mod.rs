@@ -18,11 +18,14 @@
 
 mod bridge;
 mod build;
+mod chain;
 mod check;
 mod density;
 mod evolution;
 mod exact;
+mod excitation;
 mod irregularity;
+mod oscillator;
 mod overrides;
 mod place;
 mod points;
@@ -55,9 +58,18 @@ pub use exact::{
     AmplitudeSpec, CaseSpec, DuffingSpec, ExactSpec, FreeVibrationSpec, TimesSpec,
     UniformFrequencySpec,
 };
+pub use excitation::{
+    CloughPenzienSpec, ExcitationSpec, ExcitationSpectrumSpec, ExponentialModulationSpec,
+    FrequencySpec, FrequencyTableSpec, FrequencyUnit, JenningsSpec, KanaiTajimiSpec,
+    ModulationSpec, WhiteSpec,
+};
 pub use irregularity::{
     DeterministicSpec, FieldKind, FilterForm, IrregularitySpec, ProfileSpec, SecondOrderFilterSpec,
     Sided, SineSpec, SpectrumSpec, SpectrumTableSpec, WavenumberSpec, WavenumberUnit,
+};
+pub use oscillator::{
+    BoucWenSpec, InterpolationKind, LoadKind, OscillatorSpec, PowerLawSpec, RayleighSpec,
+    StoreySpec, VanDerPolSpec,
 };
 pub use points::{PointsSpec, RuleKind};
 pub use random::{
@@ -183,6 +195,16 @@ impl Scenario {
         self.required()
     }
 
+    /// The table `[excitation]`.
+    pub fn excitation(&self) -> Result<ExcitationSpec> {
+        self.required()
+    }
+
+    /// The table `[oscillator]`.
+    pub fn oscillator(&self) -> Result<OscillatorSpec> {
+        self.required()
+    }
+
     /// The table `[bridge]`.
     pub fn bridge(&self) -> Result<BridgeSpec> {
         self.required()
@@ -222,6 +244,8 @@ impl Scenario {
             title: self.title().map(str::to_owned),
             points: self.optional()?,
             irregularity: self.optional()?,
+            excitation: self.optional()?,
+            oscillator: self.optional()?,
             bridge: self.optional()?,
             vehicle: self.optional()?,
             random: self.optional()?,
@@ -232,7 +256,10 @@ impl Scenario {
             exact: self.optional()?,
         };
         if let (Some(points), Some(irregularity)) = (&all.points, &all.irregularity) {
-            self.check_truncation(points, irregularity)?;
+            self.check_truncation(points, "irregularity", irregularity.field)?;
+        }
+        if let (Some(points), Some(excitation)) = (&all.points, &all.excitation) {
+            self.check_truncation(points, "excitation", excitation.field)?;
         }
         self.check_random(
             all.random.as_deref().unwrap_or_default(),

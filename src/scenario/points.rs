@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::irregularity::{FieldKind, IrregularitySpec};
+use super::irregularity::FieldKind;
 use super::{Scenario, Table};
 use crate::probability::{MomentMatched, PointRule, RuleError};
 use crate::{BadInput, Result};
@@ -199,19 +199,20 @@ impl Scenario {
         }
     }
 
-    /// Checks that `points.truncate_at` meets Gaussian amplitudes: truncating random phases means nothing.
+    /// Checks that `points.truncate_at` meets Gaussian amplitudes in `table`: truncating random phases means nothing.
     pub fn check_truncation(
         &self,
         points: &PointsSpec,
-        irregularity: &IrregularitySpec,
+        table: &str,
+        field: FieldKind,
     ) -> Result<()> {
-        match (points.truncate_at, irregularity.field) {
+        match (points.truncate_at, field) {
             (None, _) | (Some(_), FieldKind::Gaussian | FieldKind::KarhunenLoeve) => Ok(()),
             (Some(_), FieldKind::RandomPhase) => Err(self
                 .bad(
                     "points.truncate_at",
-                    "no such key unless irregularity.field = \"gaussian\"",
-                    "irregularity.field = \"random-phase\"",
+                    format!("no such key unless {table}.field = \"gaussian\""),
+                    format!("{table}.field = \"random-phase\""),
                 )
                 .remedy("leave it out or change the field")
                 .into()),

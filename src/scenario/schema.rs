@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    BridgeSpec, CorrelationSpec, DensitySpec, ExactSpec, IrregularitySpec, PointsSpec, RandomSpec,
-    ReliabilitySpec, SimulationSpec, VehicleSpec,
+    BridgeSpec, CorrelationSpec, DensitySpec, ExactSpec, ExcitationSpec, IrregularitySpec,
+    OscillatorSpec, PointsSpec, RandomSpec, ReliabilitySpec, SimulationSpec, VehicleSpec,
 };
 
 /// A whole scenario: one table a stage. Every value is in SI units.
@@ -24,6 +24,10 @@ pub struct ScenarioSpec {
     pub points: Option<PointsSpec>,
     /// Irregularity of the road or track.
     pub irregularity: Option<IrregularitySpec>,
+    /// Excitation in time.
+    pub excitation: Option<ExcitationSpec>,
+    /// An oscillator or a chain of them, in place of bridge and vehicle.
+    pub oscillator: Option<OscillatorSpec>,
     /// The bridge.
     pub bridge: Option<BridgeSpec>,
     /// The vehicle that crosses the bridge.
@@ -74,6 +78,19 @@ pub(super) fn knows(path: &[&str]) -> bool {
             || alternatives.into_iter().any(|schema| below(schema, path))
     }
     below(shared(), path)
+}
+
+/// The schema of the key at `path` (an entry of a list by its number), if the scenario may have it.
+pub(super) fn at(path: &[&str]) -> Option<&'static Value> {
+    let mut schema = shared();
+    for name in path {
+        schema = if name.parse::<usize>().is_ok() && schema["items"].is_object() {
+            &schema["items"]
+        } else {
+            schema["properties"].get(name)?
+        };
+    }
+    Some(schema)
 }
 
 fn generate() -> Value {

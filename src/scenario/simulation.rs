@@ -52,6 +52,8 @@ pub enum IntegratorKind {
     Zhai,
     /// Exact on the free modes of the bridge.
     Exponential,
+    /// The classical Runge-Kutta scheme of order four: of oscillators, and of nothing else.
+    RungeKutta,
 }
 
 /// The state at the start of the run, at rest; the bridge undeflected by the vehicle.

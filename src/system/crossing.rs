@@ -330,7 +330,10 @@ fn motion_of(quantity: &Quantity) -> Option<Motion> {
         Quantity::Bridge { .. }
         | Quantity::Vehicle { .. }
         | Quantity::ContactForce
-        | Quantity::Irregularity => None,
+        | Quantity::Irregularity
+        | Quantity::Oscillator { .. }
+        | Quantity::BaseAcceleration
+        | Quantity::Force => None,
     }
 }
 

@@ -48,6 +48,9 @@ impl OutputMap {
             Quantity::Vehicle { part, motion } => maps.vehicle().map(*part, *motion),
             Quantity::ContactForce => OutputMap::ContactForce,
             Quantity::Irregularity => OutputMap::Irregularity,
+            Quantity::Oscillator { .. } | Quantity::BaseAcceleration | Quantity::Force => {
+                unreachable!("no response of a crossing")
+            }
         }
     }
 }

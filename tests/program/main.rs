@@ -15,5 +15,6 @@ mod growth;
 mod harness;
 mod interruption;
 mod known_points;
+mod oscillator;
 mod pseudo_excitation;
 mod random;

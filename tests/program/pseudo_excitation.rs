@@ -205,7 +205,7 @@ fn what_does_not_follow_from_harmonics_is_refused() {
     excite(
         "--set irregularity.field=karhunen-loeve --set irregularity.spacing=1e-4 --set irregularity.wavenumber.count=10000",
         "--set: irregularity.field: expected an expansion that takes some seconds, \
-         found 400001 positions with 10000 wavenumbers; make irregularity.length or wavenumber.max smaller or the \
+         found 400001 positions with 10000 wavenumbers; make the length or the band smaller or the \
          spacing larger, or take the field \"gaussian\"",
     );
     let outcome = folder.run_in_vain(

@@ -3,8 +3,8 @@
 use super::{Axis, Image, page};
 use crate::cli;
 use crate::commands::responses::check_representative;
-use crate::commands::{Context, bad_file, excite};
-use crate::files::points::{PointsReader, ReadHeader};
+use crate::commands::{Context, bad_file, source};
+use crate::files::points::{PointsReader, ReadHeader, component_unit, is_in_time};
 use crate::plot::{IrregularitySamples, Periodogram, Spectrum};
 use crate::scenario::Scenario;
 use crate::{BadInput, Result};
@@ -18,6 +18,10 @@ const AVERAGED: usize = 4096;
 fn rows(args: &cli::Plot, reader: &PointsReader, most: usize) -> Result<Vec<(u32, Vec<f64>)>> {
     let header = reader.header();
     let component = match &args.quantity {
+        None if header.components.is_empty() => {
+            let expected = "points with an irregularity or an excitation";
+            return Err(bad_file(&args.input, "", expected, "parameters alone").into());
+        }
         None => 0,
         Some(name) => header
             .components
@@ -61,18 +65,31 @@ pub(super) fn samples(args: &cli::Plot) -> Result<Image> {
         .iter()
         .map(|(point, row)| (format!("point {point}"), row.as_slice()))
         .collect();
+    let name = args.quantity.as_ref().or(header.components.first());
+    let component = name.map_or("", String::as_str);
+    let (title, name, symbol) = match component {
+        "base_acceleration" => ("excitation", "Base acceleration", "a_g"),
+        "force" => ("excitation", "Force", "F"),
+        _ => ("irregularity", "Irregularity", "η"),
+    };
     let axis = Axis {
-        name: "Irregularity".to_owned(),
-        symbol: "η".to_owned(),
-        unit: "m".to_owned(),
+        name: name.to_owned(),
+        symbol: symbol.to_owned(),
+        unit: component_unit(component).to_owned(),
+    };
+    let place = if is_in_time(component) {
+        "Time, t (s)"
+    } else {
+        "Position, x (m)"
     };
     let page = page(
-        "Samples of the irregularity".to_owned(),
+        format!("Samples of the {title}"),
         header.provenance.as_ref(),
         &[remark(header)],
     );
     IrregularitySamples {
         label: axis.label(),
+        place,
         position_start: header.position_start,
         position_step: header.position_step,
         samples: &named,
@@ -103,11 +120,14 @@ pub(super) fn periodogram(context: &Context, args: &cli::Plot) -> Result<Image> 
     let text = text.ok_or_else(|| no_target("points without a scenario"))?;
     let name = format!("{} (its scenario)", args.input.display());
     let scenario = Scenario::from_text(name, text)?;
+    if scenario.has("excitation") {
+        return Err(no_target("an excitation in time").into());
+    }
     let spec = scenario.irregularity()?;
     let (Some(spectrum), Some(band)) = (&spec.spectrum, &spec.wavenumber) else {
         return Err(no_target("a deterministic irregularity").into());
     };
-    let spectrum = excite::read_spectrum(context, &scenario, spectrum, band.max)?;
+    let spectrum = source::read_spectrum(context, &scenario, spectrum, band.max)?;
     let kept = rows(args, &reader, AVERAGED)?;
     let samples: Vec<&[f64]> = kept.iter().map(|(_, row)| row.as_slice()).collect();
     let weights: Vec<f64> = kept

@@ -59,7 +59,7 @@ pub(super) fn probability(input: &Input) -> Result<Vec<f64>> {
     Ok(probability)
 }
 
-/// The columns of lists of numbers, but for our own variables.
+/// The columns of lists of numbers, but for our own variables; free vibration needs none.
 pub(super) fn components(input: &Input) -> Result<Vec<usize>> {
     let fields = input.schema().fields();
     let is_component = |&column: &usize| {
@@ -71,16 +71,20 @@ pub(super) fn components(input: &Input) -> Result<Vec<usize>> {
         let unsuitable = fields
             .iter()
             .find(|field| element(field.data_type()).is_some() && field.name() != VARIABLES);
-        let found = match unsuitable {
-            Some(field) => format!("`{}` of type {}", field.name(), field.data_type()),
-            None => "none".into(),
-        };
-        let expected = "an irregularity column, a list of numbers in each row (`vertical`, m)";
-        return Err(BadInput::new(input.place(), "", expected, found)
-            .remedy("see schemas/points.json")
-            .into());
+        if let Some(field) = unsuitable {
+            let found = format!("`{}` of type {}", field.name(), field.data_type());
+            return Err(no_component(input, found));
+        }
     }
     Ok(components)
+}
+
+/// The error of a file without a list of numbers.
+pub(super) fn no_component(input: &Input, found: impl Into<String>) -> Error {
+    let expected = "an irregularity column, a list of numbers in each row (`vertical`, m)";
+    BadInput::new(input.place(), "", expected, found)
+        .remedy("see schemas/points.json")
+        .into()
 }
 
 /// The column of our own variables.
@@ -119,10 +123,11 @@ pub(super) fn parameters(input: &Input) -> Vec<usize> {
     (0..fields.len()).filter(is_parameter).collect()
 }
 
-/// A position's key.
+/// A key of the grid, in `unit`.
 pub(super) fn position(
     input: &Input,
     key: &str,
+    unit: &str,
     valid: impl Fn(f64) -> bool,
     expected: &str,
 ) -> Result<f64> {
@@ -130,7 +135,7 @@ pub(super) fn position(
         let error = BadInput::new(
             input.place(),
             key,
-            format!("{expected} of metres among the file's metadata"),
+            format!("{expected} of {unit} among the file's metadata"),
             "none",
         );
         return Err(error
@@ -144,7 +149,7 @@ pub(super) fn position(
         Ok(_) | Err(_) => Err(BadInput::new(
             input.place(),
             key,
-            format!("{expected} of metres"),
+            format!("{expected} of {unit}"),
             format!("`{text}`"),
         )
         .into()),

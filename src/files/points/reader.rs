@@ -5,10 +5,10 @@ use std::path::Path;
 
 use super::columns::{ListColumn, PageColumn, plain_leaf};
 use super::header::{
-    components, dimensions, first_length, parameters, position, probability, too_few_rows,
-    variables,
+    components, dimensions, first_length, no_component, parameters, position, probability,
+    too_few_rows, variables,
 };
-use super::{POSITION_START, POSITION_STEP, PROBABILITY, ROW_GROUP, VARIABLES, WEIGHTS};
+use super::{PROBABILITY, ROW_GROUP, VARIABLES, WEIGHTS, grid_keys, is_in_time};
 use crate::files::parquet_input::{BatchReader, Input, Select, as_numbers};
 use crate::files::weights::check_probabilities;
 use crate::files::{Kind, Provenance, Weights};
@@ -23,13 +23,13 @@ pub struct ReadHeader {
     pub weights: Weights,
     /// The probability of each point.
     pub probability: Vec<f64>,
-    /// The first position of the irregularity, m.
+    /// The first position of the irregularity (m), or the first time of an excitation (s).
     pub position_start: f64,
-    /// The distance between positions, m.
+    /// The distance between positions (m) or times (s).
     pub position_step: f64,
-    /// The number of positions.
+    /// The number of positions or times; 0 where nothing is given over them.
     pub positions: usize,
-    /// The irregularity components, in the order of the file.
+    /// The components of irregularity or excitation, in the order of the file.
     pub components: Vec<String>,
     /// The other columns of numbers, the random parameters: key and unit (empty if unknown).
     pub parameters: Vec<(String, String)>,
@@ -89,19 +89,13 @@ impl PointsReader {
         let probability = probability(&input)?;
         check_probabilities(&place, PROBABILITY, weights, &probability)?;
         let components = components(&input)?;
-        let position_start = position(
-            &input,
-            POSITION_START,
-            |value| value.is_finite(),
-            "a number",
-        )?;
-        let position_step = position(
-            &input,
-            POSITION_STEP,
-            |value| value.is_finite() && value > 0.0,
-            "a positive number",
-        )?;
-        let positions = first_length(&input, components[0])?;
+        let (position_start, position_step, positions) = match components.first() {
+            Some(first) => {
+                let (start, step) = grid(&input, &components)?;
+                (start, step, first_length(&input, *first)?)
+            }
+            None => (0.0, 1.0, 0),
+        };
         let parameters = parameters(&input);
         let variables = match variables(&input) {
             Some(column) => first_length(&input, column)?,
@@ -143,6 +137,25 @@ impl PointsReader {
     /// What the file says about itself.
     pub fn header(&self) -> &ReadHeader {
         &self.header
+    }
+
+    /// The place of a component among the columns of lists; `expected` says what it is.
+    ///
+    /// # Errors
+    /// A file without it.
+    pub fn component(&self, name: &str, expected: &str) -> Result<usize> {
+        let components = &self.header.components;
+        if components.is_empty() && !is_in_time(name) {
+            return Err(no_component(&self.input, "none"));
+        }
+        let found = components.iter().position(|component| component == name);
+        found.ok_or_else(|| {
+            let found = match components.as_slice() {
+                [] => "none".to_owned(),
+                _ => format!("only {}", components.join(", ")),
+            };
+            BadInput::new(self.input.place(), name, expected, found).into()
+        })
     }
 
     /// The leading standard normals of all points, `[point][variable]`; empty without them.
@@ -188,11 +201,28 @@ impl PointsReader {
                 .remedy("a range A..B starts at A and ends before B")
                 .into());
         }
+        self.stream(range, batch_size, &self.components)
+    }
+
+    /// The same without irregularity and excitation, the bulk of a file.
+    ///
+    /// # Errors
+    /// As `batches`.
+    pub fn parameter_batches(&self, range: Range<u32>, batch_size: usize) -> Result<Batches<'_>> {
+        self.stream(range, batch_size, &[])
+    }
+
+    fn stream(
+        &self,
+        range: Range<u32>,
+        batch_size: usize,
+        components: &[usize],
+    ) -> Result<Batches<'_>> {
         let (groups, before) = self.row_groups(&range);
         let mut lists = Vec::new();
         // What arrow has to read: parameters, and lists that are not plain.
         let mut through_arrow = self.parameters.clone();
-        for (column, name) in self.components.iter().zip(&self.header.components) {
+        for (column, name) in components.iter().zip(&self.header.components) {
             let place = self.input.place();
             let list = ListColumn {
                 place,
@@ -254,6 +284,18 @@ impl PointsReader {
         }
         (groups, before)
     }
+}
+
+/// First place and step of components.
+fn grid(input: &Input, components: &[usize]) -> Result<(f64, f64)> {
+    let names = components.iter();
+    let names = names.map(|column| input.schema().field(*column).name().as_str());
+    let [start, step, unit] = grid_keys(names);
+    let is_step = |value: f64| value.is_finite() && value > 0.0;
+    Ok((
+        position(input, start, unit, f64::is_finite, "a number")?,
+        position(input, step, unit, is_step, "a positive number")?,
+    ))
 }
 
 enum List {

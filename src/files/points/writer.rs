@@ -15,7 +15,7 @@ use parquet::schema::types::SchemaDescPtr;
 
 use super::pages::{self, Failure, LevelCache, Sink};
 use super::{
-    DIMENSIONS, POINT, POSITION_START, POSITION_STEP, PROBABILITY, ROW_GROUP, VARIABLES, WEIGHTS,
+    DIMENSIONS, POINT, PROBABILITY, ROW_GROUP, VARIABLES, WEIGHTS, component_unit, grid_keys,
 };
 use crate::files::attributes::Attributes;
 use crate::files::output::{self, OutputFile};
@@ -29,13 +29,13 @@ const PARQUET_MAGIC: &[u8] = b"PAR1";
 pub struct PointsHeader {
     /// What the probabilities are.
     pub weights: Weights,
-    /// The first position of the irregularity, m.
+    /// The first position of the irregularity (m), or the first time of an excitation (s).
     pub position_start: f64,
-    /// The distance between positions, m.
+    /// The distance between positions (m) or times (s).
     pub position_step: f64,
-    /// The number of positions.
+    /// The number of positions or times; 0 without components.
     pub positions: usize,
-    /// The irregularity components: `vertical`, ...
+    /// The components: `vertical`, `base_acceleration`, ...; none where only parameters are random.
     pub components: Vec<String>,
     /// The random parameters: key and unit.
     pub parameters: Vec<(String, String)>,
@@ -56,7 +56,7 @@ pub struct PointsBatch<'a> {
     pub probability: &'a [f64],
     /// For each random parameter the points' values.
     pub parameters: &'a [Vec<f64>],
-    /// For each component the values `[point][position]`, m.
+    /// For each component the values `[point][position]`, in its unit.
     pub irregularity: &'a [&'a [f64]],
     /// The leading standard normals `[point][variable]`; empty without them.
     pub variables: &'a [f64],
@@ -88,9 +88,9 @@ impl PointsWriter {
     /// Starts a points file.
     ///
     /// # Panics
-    /// If there is no component or no position.
+    /// If there are components without positions.
     pub fn create(output: OutputFile, header: &PointsHeader) -> Result<PointsWriter> {
-        assert!(header.positions > 0 && !header.components.is_empty());
+        assert!(header.positions > 0 || header.components.is_empty());
         let path = output.path().to_owned();
         let schema = arrow_schema(header);
         let descriptor = ArrowSchemaConverter::new()
@@ -312,8 +312,11 @@ fn failed(path: &Path, error: ParquetError) -> Error {
 fn attributes(header: &PointsHeader) -> Attributes {
     let mut attributes = Attributes::stamped(&header.provenance);
     attributes.text(WEIGHTS, header.weights.name());
-    attributes.number(POSITION_START, header.position_start);
-    attributes.number(POSITION_STEP, header.position_step);
+    if !header.components.is_empty() {
+        let [start, step, _] = grid_keys(header.components.iter().map(String::as_str));
+        attributes.number(start, header.position_start);
+        attributes.number(step, header.position_step);
+    }
     if let Some(dimensions) = header.dimensions {
         attributes.json(DIMENSIONS, serde_json::json!(dimensions));
     }
@@ -343,7 +346,7 @@ fn arrow_schema(header: &PointsHeader) -> Schema {
         header
             .components
             .iter()
-            .map(|name| field(name, list(header.positions), "m")),
+            .map(|name| field(name, list(header.positions), component_unit(name))),
     );
     if header.variables > 0 {
         fields.push(field(VARIABLES, list(header.variables), "1"));

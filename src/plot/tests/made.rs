@@ -162,6 +162,7 @@ fn samples_image(field: &[Vec<f64>]) -> Image {
     };
     let figure = IrregularitySamples {
         label,
+        place: "Position, x (m)",
         position_start: 0.0,
         position_step: 0.1,
         samples: &samples,

@@ -6,16 +6,17 @@ use toml_edit::Item;
 use crate::BadInput;
 use crate::scenario::shape::{Bounds, Shape};
 use crate::scenario::suggestion::nearest;
-use crate::scenario::{Scenario, schema};
+use crate::scenario::{Scenario, VARIED_KEYS, schema};
 
 /// The tables that a run at each point uses: every number in them can be random.
-const TABLES: [&str; 2] = ["bridge", "vehicle"];
+const TABLES: [&str; 3] = ["bridge", "vehicle", "oscillator"];
 
 /// Why keys of the other tables can't be.
 fn reason(table: &str) -> Option<&'static str> {
     match table {
         "points" => Some("the random parameters are drawn at the points"),
         "irregularity" => Some("the irregularity is random by its spectrum"),
+        "excitation" => Some("the excitation is random by its spectrum"),
         "simulation" => Some("all points share the times and the scheme"),
         "density" | "reliability" => Some("it is about all points at once"),
         _ => None,
@@ -48,7 +49,7 @@ enum Found {
 /// The number with the name `name`; `at` is the key that names it.
 pub(super) fn number(scenario: &Scenario, at: &str, name: &str) -> Result<Number, BadInput> {
     let path: Vec<&str> = name.split('.').collect();
-    let expected = "the key of a number of [bridge] or [vehicle]";
+    let expected = "the key of a number of [bridge], [vehicle] or [oscillator]";
     let refused = |found: String| scenario.bad(at, expected, found);
     if let Some(reason) = reason(path[0]) {
         return Err(refused(format!("{name:?}")).remedy(format!("it can't be random: {reason}")));
@@ -60,6 +61,10 @@ pub(super) fn number(scenario: &Scenario, at: &str, name: &str) -> Result<Number
         Found::Nothing
     };
     match found {
+        Found::Number(_) if is_shared(name) => {
+            let found = format!("{name:?}, which all points of a crossing share");
+            Err(refused(found).remedy(format!("known are {}", VARIED_KEYS.join(", "))))
+        }
         Found::Number(number) => Ok(number),
         Found::Other(what) => Err(refused(format!("{name:?}, {what}"))),
         Found::Nothing => {
@@ -95,7 +100,9 @@ fn find(schema: &Json, item: Option<&Item>, path: &[&str]) -> Found {
             Found::Other("a whole number, which all points share")
         }
         Shape::Text { .. } | Shape::Choice(_) if path.is_empty() => Found::Other("a text"),
-        Shape::List { .. } => Found::Other("a list, which all points share"),
+        Shape::List { .. } => member(schema, item, path).unwrap_or(Found::Other(
+            "a list; its members are named by their places, from 0",
+        )),
         Shape::Table if path.is_empty() => Found::Other("a table"),
         Shape::Table => property().unwrap_or(Found::Nothing),
         Shape::Tagged { .. } if path.is_empty() => Found::Other("a table"),
@@ -116,6 +123,19 @@ fn find(schema: &Json, item: Option<&Item>, path: &[&str]) -> Found {
     }
 }
 
+/// Whether the lanes of a crossing can't have values of their own of this number.
+fn is_shared(name: &str) -> bool {
+    let crossing = name.starts_with("bridge.") || name.starts_with("vehicle.");
+    crossing && !VARIED_KEYS.contains(&name)
+}
+
+/// What a path leads to in a member of a list.
+fn member(schema: &Json, item: Option<&Item>, path: &[&str]) -> Option<Found> {
+    let (place, rest) = path.split_first()?;
+    let member = item?.get(place.parse::<usize>().ok()?)?;
+    Some(find(&schema["items"], Some(member), rest))
+}
+
 /// All keys that can be random in this scenario, with its kinds.
 fn all(scenario: &Scenario) -> Vec<String> {
     let mut keys = Vec::new();
@@ -123,6 +143,7 @@ fn all(scenario: &Scenario) -> Vec<String> {
         let schema = &schema::shared()["properties"][table];
         gather(table, schema, scenario.effective.get(table), &mut keys);
     }
+    keys.retain(|key| !is_shared(key));
     keys
 }
 

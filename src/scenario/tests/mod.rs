@@ -3,6 +3,7 @@ use std::path::{Path, PathBuf};
 use super::*;
 
 mod bad;
+mod oscillator;
 mod overrides;
 mod random;
 mod schema;
@@ -126,7 +127,7 @@ key = "vehicle.tyre_stiffness"
 distribution = { kind = "gamma", shape = 100, scale = 1560 }
 
 [[random]]
-key = "vehicle.speed"
+key = "vehicle.suspension_quadratic_damping"
 distribution = { kind = "gumbel", mode = 20, scale = 0.5, extreme = "smallest" }
 
 [[random]]

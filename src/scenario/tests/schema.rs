@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use serde_json::Value as Json;
 
+use super::oscillator::{CHAIN_KINDS, SINGLE_OTHERWISE, chain, single};
 use super::*;
 use crate::scenario::shape::Shape;
 
@@ -54,6 +55,8 @@ fn keys(key: &str, json: &Json, found: &mut BTreeSet<String>) {
 fn is_tag(key: &str) -> bool {
     let tags = [
         ".vehicle.kind",
+        ".excitation.spectrum.kind",
+        ".excitation.modulation.kind",
         ".irregularity.spectrum.kind",
         ".irregularity.deterministic.kind",
         ".density.smoothing.rule",
@@ -77,6 +80,11 @@ fn the_specs_and_the_schema_have_the_same_keys() {
         example(),
         full(),
         kinds(&[]),
+        single(),
+        single().set(&sets(&SINGLE_OTHERWISE)).unwrap(),
+        chain(),
+        chain().set(&sets(&CHAIN_KINDS[0])).unwrap(),
+        chain().set(&sets(&CHAIN_KINDS[1])).unwrap(),
         kinds(&[
             r#"density.smoothing={ rule = "factor" }"#,
             r#"reliability.smoothing={ rule = "fixed", width = 1 }"#,
@@ -101,6 +109,23 @@ fn every_key_is_described_and_every_number_has_its_unit() {
         ".bridge.damping_ratio",
         ".density.evolution.absorbing.threshold",
         ".density.evolution.courant",
+        ".excitation.spectrum.ground_damping_ratio",
+        ".excitation.spectrum.filter_damping_ratio",
+        ".oscillator.rayleigh.damping_ratio",
+        ".oscillator.damping_ratio",
+        ".oscillator.power_law_damping.exponent",
+        ".oscillator.bouc_wen.post_yield_ratio",
+        ".oscillator.bouc_wen.amplitude",
+        ".oscillator.bouc_wen.beta",
+        ".oscillator.bouc_wen.gamma",
+        ".oscillator.bouc_wen.exponent",
+        ".oscillator.storey.damping_ratio",
+        ".oscillator.storey.power_law_damping.exponent",
+        ".oscillator.storey.bouc_wen.post_yield_ratio",
+        ".oscillator.storey.bouc_wen.amplitude",
+        ".oscillator.storey.bouc_wen.beta",
+        ".oscillator.storey.bouc_wen.gamma",
+        ".oscillator.storey.bouc_wen.exponent",
         ".density.smoothing.factor",
         ".density.smoothing.width",
         ".exact.case.damping_ratio",
@@ -155,11 +180,15 @@ fn every_choice_is_one_that_serde_knows() {
                     let rule: RuleKind = serde_json::from_value(json).unwrap();
                     assert_eq!(rule.name(), choice);
                 }
-                ".irregularity.field" => {
+                ".irregularity.field" | ".excitation.field" => {
                     read::<FieldKind>(json.clone());
                     let field: FieldKind = serde_json::from_value(json).unwrap();
                     assert_eq!(field.name(), choice);
                 }
+                ".excitation.component" | ".oscillator.excitation" => read::<LoadKind>(json),
+                ".excitation.spectrum.sided" => read::<Sided>(json),
+                ".excitation.spectrum.unit" => read::<FrequencyUnit>(json),
+                ".oscillator.interpolation" => read::<InterpolationKind>(json),
                 ".irregularity.spectrum.form" => read::<FilterForm>(json),
                 ".irregularity.spectrum.sided" => read::<Sided>(json),
                 ".irregularity.spectrum.unit" => read::<WavenumberUnit>(json),
@@ -180,5 +209,5 @@ fn every_choice_is_one_that_serde_knows() {
             }
         }
     }
-    assert_eq!(count, 48);
+    assert_eq!(count, 62);
 }

@@ -203,6 +203,7 @@ fn message(form: Form, change: impl FnOnce(&mut Foreign)) -> String {
     change(&mut foreign);
     foreign.write(&path);
     let read = PointsReader::open(&path).and_then(|reader| {
+        reader.component("vertical", "heights")?;
         let count = reader.header().count;
         reader.batches(0..count, 64)?.collect::<Result<Vec<_>>>()
     });
