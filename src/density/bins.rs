@@ -9,6 +9,9 @@ pub struct Bins {
     masses: Vec<f64>,
 }
 
+/// 2^52: a number added to it is rounded to an integer, which then stands in the lowest bits.
+const INTEGER: f64 = 4_503_599_627_370_496.0;
+
 impl Bins {
     /// Bins of at most the given spacing over least ... largest.
     pub fn new(least: f64, largest: f64, spacing: f64) -> Self {
@@ -32,15 +35,37 @@ impl Bins {
 
     /// Shares values, all between least and largest, among the nodes.
     pub fn add(&mut self, values: &[f64], probability: &[f64]) {
-        let scale = 1.0 / self.spacing;
+        /// Values whose places are found side by side.
+        const WIDE: usize = 16;
+        let (origin, scale) = (self.origin, 1.0 / self.spacing);
         let last = self.masses.len() - 2;
-        for (value, p) in values.iter().zip(probability) {
-            let place = (value - self.origin) * scale;
+        let (rows, rest) = values.as_chunks::<WIDE>();
+        let (weights, rest_weights) = probability.as_chunks::<WIDE>();
+        for (row, weight) in rows.iter().zip(weights) {
+            let mut nodes = [0; WIDE];
+            let mut pairs = [[0.0; 2]; WIDE];
+            for j in 0..WIDE {
+                let place = (row[j] - origin) * scale;
+                // The node below, or at a node one of the two beside it, which comes to the same: the
+                // addition rounds, and leaves the number in the last digits.
+                let rounded = (place - 0.5).max(0.0) + INTEGER;
+                let upper = weight[j] * (place - (rounded - INTEGER));
+                nodes[j] = rounded.to_bits() as u32;
+                pairs[j] = [weight[j] - upper, upper];
+            }
+            for (node, [lower, upper]) in nodes.into_iter().zip(pairs) {
+                let node = (node as usize).min(last);
+                let pair = &mut self.masses[node..node + 2];
+                pair[0] += lower;
+                pair[1] += upper;
+            }
+        }
+        for (value, p) in rest.iter().zip(rest_weights) {
+            let place = (value - origin) * scale;
             let node = (place as usize).min(last);
             let upper = p * (place - node as f64);
-            let pair = &mut self.masses[node..node + 2];
-            pair[0] += p - upper;
-            pair[1] += upper;
+            self.masses[node] += p - upper;
+            self.masses[node + 1] += upper;
         }
     }
 

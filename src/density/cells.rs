@@ -11,8 +11,9 @@ use rayon::prelude::*;
 
 /// Samples or bins that are held at a time (bytes): more cells take further passes.
 const MEMORY: usize = 192 << 20;
-/// Bins in a smoothing width.
+/// Bins in a smoothing width, and at first, when a small distance of the quartiles may still narrow it.
 const BINS_PER_WIDTH: f64 = 6.0;
+const BINS_AT_FIRST: f64 = 10.0;
 /// A spread below this share of the largest response at any time is rounding: a response that is
 /// zero at the start, but for the last digit of what cancels there.
 const ROUNDING: f64 = 1e-14;
@@ -195,7 +196,7 @@ impl Estimator<'_> {
     /// The spacing of the first bins, from the deviation alone.
     fn first_spacing(&self, sums: &PowerSums) -> f64 {
         let spread = sums.spread(f64::INFINITY, self.effective_count);
-        self.rule.first_width(&spread) / BINS_PER_WIDTH
+        self.rule.first_width(&spread) / BINS_AT_FIRST
     }
 
     fn bins_of(&self, sums: &PowerSums) -> usize {

@@ -48,8 +48,16 @@ impl PowerSums {
     /// Adds values with their probabilities. The first value ever becomes the shift, so that a mean
     /// far from zero costs no digits.
     pub fn add(&mut self, values: &[f64], probability: &[f64]) {
+        pulp::Arch::new().dispatch(
+            #[inline(always)]
+            || self.add_wide(values, probability),
+        );
+    }
+
+    #[inline(always)]
+    fn add_wide(&mut self, values: &[f64], probability: &[f64]) {
         /// Sums that run side by side, for the vector units.
-        const WIDE: usize = 8;
+        const WIDE: usize = 16;
         if self.shift.is_nan() {
             self.shift = values.first().copied().unwrap_or(f64::NAN);
         }
@@ -63,11 +71,12 @@ impl PowerSums {
             for j in 0..WIDE {
                 let d = row[j] - shift;
                 let (p, dd) = (weight[j], d * d);
+                let (pd, pdd) = (p * d, p * dd);
                 sums[0][j] += p;
-                sums[1][j] += p * d;
-                sums[2][j] += p * dd;
-                sums[3][j] += p * dd * d;
-                sums[4][j] += p * dd * dd;
+                sums[1][j] += pd;
+                sums[2][j] += pdd;
+                sums[3][j] += pdd * d;
+                sums[4][j] += pdd * dd;
                 least[j] = if row[j] < least[j] { row[j] } else { least[j] };
                 largest[j] = if row[j] > largest[j] {
                     row[j]
