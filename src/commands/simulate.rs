@@ -191,9 +191,14 @@ impl Run<'_> {
             for first in self.range.clone().step_by(band) {
                 let points = first..self.range.end.min(first.saturating_add(band as u32));
                 let size = points.len() * self.rows();
-                let mut values = spare_bands
-                    .try_recv()
-                    .unwrap_or_else(|_| memory::zeros(size));
+                // A second band in memory lets one be written while the next is stepped: of no use to
+                // one thread.
+                let spare = if rayon::current_num_threads() == 1 && first > self.range.start {
+                    spare_bands.recv().ok()
+                } else {
+                    spare_bands.try_recv().ok()
+                };
+                let mut values = spare.unwrap_or_else(|| memory::zeros(size));
                 values.resize(size, 0.0);
                 stepped = values
                     .chunks_mut(block * self.rows())
