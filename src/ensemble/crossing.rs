@@ -63,7 +63,7 @@ impl Varied {
                 for (value, column) in values.iter_mut().zip(&columns) {
                     *value = column[point];
                 }
-                CrossingMaps::new(&(self.crossing_of)(&values), &tables.frame)
+                CrossingMaps::new((self.crossing_of)(&values), &tables.frame)
             })
             .collect()
     }

@@ -368,7 +368,7 @@ fn a_lane_with_parameters_of_its_own_runs_as_it_would_alone() {
             // Fewer than there are lanes: the rest repeats the last one.
             let lanes = LANES - 3;
             let maps = (0..lanes)
-                .map(|lane| CrossingMaps::new(&varied(&nominal, lane), &tables.frame))
+                .map(|lane| CrossingMaps::new(varied(&nominal, lane), &tables.frame))
                 .collect();
             let mut batch = Batch::new(&tables);
             batch.vary(maps);

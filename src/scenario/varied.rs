@@ -98,7 +98,10 @@ impl Scenario {
             car: specs.car.build(),
             ..nominal.clone()
         };
-        let template = nominal.clone();
+        let (integrator, initial_state) = (nominal.integrator, nominal.initial_state);
+        let (time_step, steps, record_every) =
+            (nominal.time_step, nominal.steps, nominal.record_every);
+        let gravity = nominal.gravity;
         let crossing_of: CrossingOf = Box::new(move |values| {
             let mut specs = specs.clone();
             for (at, value) in places.iter().zip(values) {
@@ -107,7 +110,12 @@ impl Scenario {
             Crossing {
                 beam: specs.bridge.build(),
                 car: specs.car.build(),
-                ..template.clone()
+                integrator,
+                time_step,
+                steps,
+                record_every,
+                initial_state,
+                gravity,
             }
         });
         Ok((nominal, crossing_of))

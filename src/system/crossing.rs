@@ -154,7 +154,7 @@ pub struct CrossingMaps {
 
 impl CrossingMaps {
     /// The maps of one point of an ensemble.
-    pub fn new(crossing: &Crossing, frame: &Frame) -> Self {
+    pub fn new(crossing: Crossing, frame: &Frame) -> Self {
         let plain = |keep: bool, map: Propagator| if keep { map } else { map.without_velocity() };
         let car = &crossing.car;
         let heave = crossing
@@ -165,7 +165,6 @@ impl CrossingMaps {
             .propagator(car.travel(), crossing.time_step);
         let modal = crossing.propagators().into_iter().zip(&frame.units);
         let mut maps = CrossingMaps {
-            crossing: crossing.clone(),
             modal: modal
                 .map(|(map, unit)| plain(frame.modal_velocity, map).scaled(*unit))
                 .collect(),
@@ -180,6 +179,7 @@ impl CrossingMaps {
             wheel_share: car.wheel_share(),
             heave_load: 1.0 / car.mass(),
             travel_load: -1.0 / car.wheel_mass,
+            crossing,
         };
         maps.outputs = frame
             .quantities
@@ -229,7 +229,7 @@ pub struct CrossingTables {
 
 impl CrossingTables {
     fn new(crossing: &Crossing, frame: Frame) -> Self {
-        let maps = CrossingMaps::new(crossing, &frame);
+        let maps = CrossingMaps::new(crossing.clone(), &frame);
         let beam = &crossing.beam;
         let (mut shape, mut load) = (Vec::new(), Vec::new());
         for position in crossing.positions() {
