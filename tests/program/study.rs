@@ -105,16 +105,16 @@ fn bad_studies() {
     refuses(
         "counts = [36, 144]",
         "counts = []",
-        "study.toml:28: study.counts: expected a list of at least 1, found an empty list",
+        "study.toml:24: study.counts: expected a list of numbers that is not empty, found an empty list",
     );
     refuses(
         "start = 0.5",
         "strat = 0.5",
-        "study.toml:27: study.strat: unknown key; did you mean start?",
+        "study.toml:23: study.strat: unknown key; did you mean start?",
     );
     refuses(
         "with = [\"grid\"]",
         "with = [\"gird\"]",
-        "study.toml:47: study.density.1.with: expected names of study.points (grid, squares, random), found \"gird\"",
+        "study.toml:42: study.density.1.with: expected names of study.points (grid, squares, random), found \"gird\"",
     );
 }
