@@ -45,6 +45,8 @@ pub enum Command {
     Compare(Compare),
     /// Write the exact density of a system that has one (density.parquet)
     Exact(Exact),
+    /// How the error falls with the number of points, for rules of points and of smoothing (study.parquet)
+    Study(Study),
     /// Draw a figure from any of the files (SVG or PNG)
     Plot(Plot),
     /// Frequencies, largest stable step, cost and sizes of a scenario, before the work
@@ -203,6 +205,14 @@ pub struct Exact {
     pub output: OutputArgs,
 }
 
+#[derive(Debug, Args)]
+pub struct Study {
+    #[command(flatten)]
+    pub scenario: ScenarioArgs,
+    #[command(flatten)]
+    pub output: OutputArgs,
+}
+
 /// The figures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Figure {
@@ -222,6 +232,10 @@ pub enum Figure {
     FailureProbability,
     /// The distances between two densities over time (comparison)
     Distances,
+    /// The error over the number of points (study)
+    Convergence,
+    /// The error over the processor time (study)
+    Work,
 }
 
 /// What a density's value axis shows.
@@ -279,6 +293,7 @@ pub enum SchemaOf {
     Moments,
     Reliability,
     Comparison,
+    Study,
 }
 
 #[derive(Debug, Args)]

@@ -4,7 +4,9 @@ use crate::Result;
 use crate::cli;
 use crate::files::points::{PointsReader, component_unit, is_in_time};
 use crate::files::recording::{Axis, Recordings};
-use crate::files::tables::{Units, read_comparison, read_density, read_moments, read_reliability};
+use crate::files::tables::{
+    StudyRow, Units, read_comparison, read_density, read_moments, read_reliability, read_study,
+};
 use crate::files::{Kind, Provenance, Weights, identify};
 use crate::response::effective_count;
 use std::fmt::Write;
@@ -21,6 +23,7 @@ pub(super) fn run(args: &cli::Inspect) -> Result<()> {
         Kind::Moments => moments(path, &mut text)?,
         Kind::Reliability => reliability(path, &mut text)?,
         Kind::Comparison => comparison(path, &mut text)?,
+        Kind::Study => study(path, &mut text)?,
     }
     super::print(&text)
 }
@@ -295,6 +298,29 @@ fn reliability(path: &Path, text: &mut String) -> Result<()> {
                     row.upper
                 );
             }
+        },
+    );
+    Ok(())
+}
+
+fn study(path: &Path, text: &mut String) -> Result<()> {
+    let table = read_study(path)?;
+    stamp(path, Kind::Study, table.provenance.as_ref(), text);
+    groups(
+        &table.rows,
+        |r| format!("{} + {}, {} points", r.points, r.smoothing, r.count),
+        |name, rows| {
+            let mean = |value: fn(&StudyRow) -> f64| {
+                rows.iter().map(|row| value(row)).sum::<f64>() / rows.len() as f64
+            };
+            line!(
+                text,
+                "  {name}: {} seed(s), means: L1 {:.3e}, error of sigma {:.3e}, {:.3} s",
+                rows.len(),
+                mean(|row| row.l1),
+                mean(|row| row.sigma_error),
+                mean(|row| row.cpu_time)
+            );
         },
     );
     Ok(())

@@ -18,6 +18,7 @@ mod schema;
 mod simulate;
 mod smoothing;
 mod source;
+mod study;
 
 use crate::cli::{Cli, Command, General, OptionalScenarioArgs, ScenarioArgs};
 use crate::scenario::Scenario;
@@ -35,6 +36,7 @@ pub fn run(cli: Cli) -> Result<()> {
         Command::Reliability(args) => reliability::run(&context, &args),
         Command::Compare(args) => compare::run(&context, &args),
         Command::Exact(args) => exact::run(&context, &args),
+        Command::Study(args) => study::run(&context, &args),
         Command::Plot(args) => plot::run(&context, &args),
         Command::Check(args) => check::run(&context, &args),
         Command::Inspect(args) => inspect::run(&args),

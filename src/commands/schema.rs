@@ -13,6 +13,7 @@ pub(super) fn run(args: &cli::Schema) -> Result<()> {
         SchemaOf::Density => schemas::document(Kind::Density).to_owned(),
         SchemaOf::Moments => schemas::document(Kind::Moments).to_owned(),
         SchemaOf::Comparison => schemas::document(Kind::Comparison).to_owned(),
+        SchemaOf::Study => schemas::document(Kind::Study).to_owned(),
         SchemaOf::Reliability => schemas::document(Kind::Reliability).to_owned(),
     };
     super::print(&text)

@@ -11,7 +11,8 @@ use std::path::Path;
 const MCAP_MAGIC: &[u8] = b"\x89MCAP0\r\n";
 
 /// Columns that only this kind of table has, for files of other programs.
-const TELLTALES: [(&str, Kind); 5] = [
+const TELLTALES: [(&str, Kind); 6] = [
+    ("sigma_error", Kind::Study),
     ("hellinger", Kind::Comparison),
     ("reliability", Kind::Reliability),
     ("density", Kind::Density),

@@ -28,11 +28,13 @@ pub enum Kind {
     Extremes,
     /// Distances between two tables of densities.
     Comparison,
+    /// Errors over the number of points.
+    Study,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Kind; 7] = [
+    pub const ALL: [Kind; 8] = [
         Kind::Points,
         Kind::Recording,
         Kind::Density,
@@ -40,6 +42,7 @@ impl Kind {
         Kind::Reliability,
         Kind::Extremes,
         Kind::Comparison,
+        Kind::Study,
     ];
 
     /// The kind's name in the files.
@@ -52,6 +55,7 @@ impl Kind {
             Kind::Reliability => "reliability",
             Kind::Extremes => "extremes",
             Kind::Comparison => "comparison",
+            Kind::Study => "study",
         }
     }
 
@@ -64,7 +68,8 @@ impl Kind {
             | Kind::Moments
             | Kind::Reliability
             | Kind::Extremes
-            | Kind::Comparison => 1,
+            | Kind::Comparison
+            | Kind::Study => 1,
         }
     }
 

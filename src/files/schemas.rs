@@ -13,6 +13,7 @@ pub fn document(kind: Kind) -> &'static str {
         Kind::Reliability => include_str!("../../schemas/reliability.json"),
         Kind::Extremes => include_str!("../../schemas/extremes.json"),
         Kind::Comparison => include_str!("../../schemas/comparison.json"),
+        Kind::Study => include_str!("../../schemas/study.json"),
     }
 }
 

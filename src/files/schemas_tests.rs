@@ -11,7 +11,7 @@ use crate::files::output::OutputFile;
 use crate::files::parquet_input::{Input, PANDAS_ATTRS};
 use crate::files::points::{PointsBatch, PointsHeader, PointsWriter};
 use crate::files::tables::{
-    ComparisonWriter, DensityWriter, MomentsWriter, ReliabilityWriter, Table, Units,
+    ComparisonWriter, DensityWriter, MomentsWriter, ReliabilityWriter, StudyWriter, Table, Units,
 };
 use crate::files::{Provenance, Weights};
 
@@ -44,6 +44,7 @@ fn write(kind: Kind, path: &Path) -> Result<()> {
         Kind::Comparison => {
             ComparisonWriter::create(output, &[0.01, 0.5, 0.99], &units, &stamp)?.finish()
         }
+        Kind::Study => StudyWriter::create(output, &stamp)?.finish(),
         Kind::Points => write_points(output, stamp),
         Kind::Recording => unreachable!("a recording is no table"),
     }

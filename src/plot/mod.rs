@@ -13,6 +13,7 @@
 //! | [`Slices`] | the densities at given times |
 //! | [`FailureProbability`] | the probability of failure over time |
 //! | [`DistancesOverTime`] | the distances between two densities over time |
+//! | [`Convergence`] | errors over the number of points or the work |
 //!
 //! The spread of a displacement is a hundredth of its travel. Figures of a response over time
 //! therefore show it from its mean where that is needed to see anything ([`ValueAxis`]).
@@ -23,6 +24,7 @@ mod axes;
 mod canvas;
 mod check;
 mod colour;
+mod convergence;
 mod density;
 mod density_scale;
 mod distances;
@@ -49,6 +51,7 @@ mod view;
 #[cfg(test)]
 mod tests;
 
+pub use convergence::{Convergence, ErrorCurve, ErrorPoint};
 pub use density::DensityAtTime;
 pub use density_scale::DensityScale;
 pub use distances::{DistanceCurve, DistancesOverTime};

@@ -34,6 +34,7 @@ mod reliability;
 mod schema;
 mod shape;
 mod simulation;
+mod study;
 mod suggestion;
 #[cfg(test)]
 mod tests;
@@ -80,6 +81,7 @@ pub use random::{
 pub use reliability::{LimitKind, LimitSpec, ReliabilitySpec};
 pub use schema::{ScenarioSpec, is_key, json_schema};
 pub use simulation::{Compression, InitialState, IntegratorKind, Precision, SimulationSpec};
+pub use study::{DensityVariantSpec, PointsVariantSpec, ReferenceKind, SeedsAboveSpec, StudySpec};
 pub use suggestion::nearest;
 pub use varied::VARIED_KEYS;
 pub use vehicle::{BumpStopSpec, QuarterCarSpec, VehicleSpec};
@@ -235,6 +237,11 @@ impl Scenario {
         self.required()
     }
 
+    /// The table `[study]`.
+    pub fn study(&self) -> Result<StudySpec> {
+        self.required()
+    }
+
     /// Checks every table that is there, and the conditions between them.
     ///
     /// # Errors
@@ -254,6 +261,7 @@ impl Scenario {
             density: self.optional()?,
             reliability: self.optional()?,
             exact: self.optional()?,
+            study: self.optional()?,
         };
         if let (Some(points), Some(irregularity)) = (&all.points, &all.irregularity) {
             self.check_truncation(points, "irregularity", irregularity.field)?;

@@ -10,7 +10,8 @@ use serde_json::Value;
 
 use super::{
     BridgeSpec, CorrelationSpec, DensitySpec, ExactSpec, ExcitationSpec, IrregularitySpec,
-    OscillatorSpec, PointsSpec, RandomSpec, ReliabilitySpec, SimulationSpec, VehicleSpec,
+    OscillatorSpec, PointsSpec, RandomSpec, ReliabilitySpec, SimulationSpec, StudySpec,
+    VehicleSpec,
 };
 
 /// A whole scenario: one table a stage. Every value is in SI units.
@@ -44,6 +45,8 @@ pub struct ScenarioSpec {
     pub reliability: Option<ReliabilitySpec>,
     /// A system whose density is known, to compare estimates with.
     pub exact: Option<ExactSpec>,
+    /// A study of the error over the number of points.
+    pub study: Option<StudySpec>,
 }
 
 static SCHEMA: LazyLock<Value> = LazyLock::new(generate);

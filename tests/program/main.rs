@@ -18,3 +18,4 @@ mod known_points;
 mod oscillator;
 mod pseudo_excitation;
 mod random;
+mod study;

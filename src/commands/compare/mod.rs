@@ -83,7 +83,7 @@ impl<'a> Side<'a> {
             }
             Kind::Moments => "moments say too little of a density: name the table beside them",
             Kind::Recording => "write its densities first (dpim density)",
-            Kind::Points | Kind::Reliability | Kind::Comparison => "",
+            Kind::Points | Kind::Reliability | Kind::Comparison | Kind::Study => "",
         };
         let found = match kind {
             Kind::Points => "a points file",
@@ -92,6 +92,7 @@ impl<'a> Side<'a> {
             Kind::Moments => "a table of moments",
             Kind::Reliability => "a table of reliability",
             Kind::Comparison => "a comparison",
+            Kind::Study => "a study",
         };
         Err(
             super::bad_file(path, "", "a table of densities or extremes", found)

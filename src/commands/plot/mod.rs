@@ -5,6 +5,7 @@ mod density;
 mod points;
 mod recording;
 mod reliability;
+mod study;
 
 use super::Context;
 use crate::cli::{self, Figure};
@@ -33,6 +34,8 @@ pub(super) fn run(context: &Context, args: &cli::Plot) -> Result<()> {
         Figure::Surface => density::surface(args),
         Figure::Slices => density::slices(args),
         Figure::Distances => comparison::distances(args),
+        Figure::Convergence => study::convergence(args),
+        Figure::Work => study::work(args),
         Figure::FailureProbability => reliability::failure_probability(args),
     }?;
     let bytes = match format {
@@ -82,6 +85,7 @@ fn figures(kind: Kind) -> &'static [Figure] {
         Kind::Extremes => &[Figure::Slices],
         Kind::Reliability => &[Figure::FailureProbability],
         Kind::Comparison => &[Figure::Distances],
+        Kind::Study => &[Figure::Convergence, Figure::Work],
         Kind::Moments => &[],
     }
 }

@@ -1,4 +1,4 @@
-//! The result tables: density, moments, reliability, extremes, comparison.
+//! The result tables: density, moments, reliability, extremes, comparison, study.
 //!
 //! Long tables, sorted, one row a node or a time. Each column's name, type, unit and meaning stand here
 //! once ([`Table`]); the writers write what stands here, and a test compares it with `schemas/`.
@@ -9,11 +9,13 @@ mod rows;
 mod writer;
 
 pub use reader::{
-    ComparisonTable, DensitySlice, DensityTable, MomentsTable, ReliabilityTable, read_comparison,
-    read_density, read_moments, read_reliability,
+    ComparisonTable, DensitySlice, DensityTable, MomentsTable, ReliabilityTable, StudyTable,
+    read_comparison, read_density, read_moments, read_reliability, read_study,
 };
-pub use rows::{ComparisonRow, MomentsRow, QUANTILES, ReliabilityRow};
-pub use writer::{ComparisonWriter, DensityWriter, MomentsWriter, ReliabilityWriter, Units};
+pub use rows::{ComparisonRow, MomentsRow, QUANTILES, ReliabilityRow, StudyRow};
+pub use writer::{
+    ComparisonWriter, DensityWriter, MomentsWriter, ReliabilityWriter, StudyWriter, Units,
+};
 
 use super::Kind;
 
@@ -111,6 +113,7 @@ impl Table {
             Kind::Moments => MOMENTS,
             Kind::Reliability => RELIABILITY,
             Kind::Comparison => COMPARISON,
+            Kind::Study => STUDY,
             Kind::Points | Kind::Recording => return None,
         };
         Some(Table { kind, columns })
@@ -300,6 +303,25 @@ const COMPARISON: &[Column] = &[
         "std",
         Unit::Quantity,
         "standard deviation of the second table",
+    ),
+];
+
+const STUDY: &[Column] = &[
+    text("case", "the title of the scenario that is studied"),
+    text("points", "the rule of points"),
+    text("smoothing", "the rule of smoothing"),
+    repeated("count", ONE, "number of points"),
+    repeated("seed", ONE, "seed of the points"),
+    number("l1", ONE, "L1 distance from the reference, mean over time"),
+    number(
+        "sigma_error",
+        ONE,
+        "relative error of the standard deviation, root mean square over time",
+    ),
+    number(
+        "cpu_time",
+        SECONDS,
+        "processor time of points, simulation and densities",
     ),
 ];
 

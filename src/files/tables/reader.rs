@@ -7,7 +7,7 @@ use arrow::array::{ArrayRef, AsArray};
 use arrow::compute::cast;
 use arrow::datatypes::DataType;
 
-use super::rows::{ComparisonRow, MomentsRow, ReliabilityRow};
+use super::rows::{ComparisonRow, MomentsRow, ReliabilityRow, StudyRow};
 use super::writer::Units;
 use super::{Table, UNITS, quantile_of_column};
 use crate::files::parquet_input::{Input, Select};
@@ -73,6 +73,15 @@ pub struct ComparisonTable {
     pub levels: Vec<f64>,
     /// The rows, in the order of the file.
     pub rows: Vec<ComparisonRow>,
+}
+
+/// A study of errors.
+#[derive(Debug, Clone)]
+pub struct StudyTable {
+    /// The stamp; `None` for a file of another program.
+    pub provenance: Option<Provenance>,
+    /// The rows, in the order of the file.
+    pub rows: Vec<StudyRow>,
 }
 
 /// The columns of a file.
@@ -205,6 +214,23 @@ pub fn read_comparison(path: &Path) -> Result<ComparisonTable> {
     })
 }
 
+/// Reads a study.
+///
+/// # Errors
+/// A file of another kind, a missing column (all are named).
+pub fn read_study(path: &Path) -> Result<StudyTable> {
+    let columns = read(path, &[Kind::Study])?;
+    let count = columns.texts[0].len();
+    let row = |row: usize| {
+        let texts = std::array::from_fn(|column| columns.texts[column][row].clone());
+        StudyRow::from_numbers(texts, &numbers_of(&columns.numbers, row))
+    };
+    Ok(StudyTable {
+        provenance: columns.provenance,
+        rows: (0..count).map(row).collect(),
+    })
+}
+
 fn numbers_of<const N: usize>(columns: &[Vec<f64>], row: usize) -> [f64; N] {
     std::array::from_fn(|column| columns[column][row])
 }
@@ -247,6 +273,7 @@ fn read(path: &Path, kinds: &[Kind]) -> Result<Columns> {
         | Kind::Extremes
         | Kind::Moments
         | Kind::Reliability
+        | Kind::Study
         | Kind::Points
         | Kind::Recording => Vec::new(),
     };

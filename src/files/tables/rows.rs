@@ -200,3 +200,51 @@ impl ComparisonRow {
         }
     }
 }
+
+/// The error of one density, over its times.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StudyRow {
+    /// The title of the scenario.
+    pub case: String,
+    /// The rule of points.
+    pub points: String,
+    /// The rule of smoothing.
+    pub smoothing: String,
+    /// Number of points.
+    pub count: f64,
+    /// Seed of the points.
+    pub seed: f64,
+    /// L1 distance from the reference, mean over time.
+    pub l1: f64,
+    /// Relative error of the standard deviation, root mean square over time.
+    pub sigma_error: f64,
+    /// Processor time of points, simulation and densities, s.
+    pub cpu_time: f64,
+}
+
+impl StudyRow {
+    pub(super) fn numbers(&self) -> [f64; 5] {
+        [
+            self.count,
+            self.seed,
+            self.l1,
+            self.sigma_error,
+            self.cpu_time,
+        ]
+    }
+
+    pub(super) fn from_numbers(texts: [String; 3], numbers: &[f64; 5]) -> StudyRow {
+        let [case, points, smoothing] = texts;
+        let [count, seed, l1, sigma_error, cpu_time] = *numbers;
+        StudyRow {
+            case,
+            points,
+            smoothing,
+            count,
+            seed,
+            l1,
+            sigma_error,
+            cpu_time,
+        }
+    }
+}

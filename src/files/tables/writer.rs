@@ -14,7 +14,7 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::schema::types::ColumnPath;
 
-use super::rows::{ComparisonRow, MomentsRow, ReliabilityRow};
+use super::rows::{ComparisonRow, MomentsRow, ReliabilityRow, StudyRow};
 use super::{ColumnType, Table, UNITS, Unit, quantile_column};
 use crate::files::attributes::Attributes;
 use crate::files::output::{self, OutputFile};
@@ -212,6 +212,7 @@ impl DensityWriter {
             | Kind::Moments
             | Kind::Reliability
             | Kind::Comparison
+            | Kind::Study
             | Kind::Points
             | Kind::Recording => table_of(Kind::Density),
         };
@@ -335,6 +336,31 @@ impl ComparisonWriter {
         let numbers = row.numbers();
         assert_eq!(numbers.len(), self.0.numbers.len(), "quantiles of a row");
         self.0.push(&[&row.quantity], &numbers)
+    }
+
+    /// Finishes the file and puts it in its place.
+    pub fn finish(self) -> Result<()> {
+        self.0.finish()
+    }
+}
+
+/// Writes a study. Dropped before [`finish`](Self::finish) it leaves no file.
+pub struct StudyWriter(LongTable);
+
+impl StudyWriter {
+    /// Starts a table.
+    ///
+    /// # Panics
+    /// If the stamp is of another kind.
+    pub fn create(output: OutputFile, provenance: &Provenance) -> Result<StudyWriter> {
+        let table = table_of(Kind::Study);
+        LongTable::create(output, &table, &Units::new(), provenance).map(StudyWriter)
+    }
+
+    /// Appends a row.
+    pub fn append(&mut self, row: &StudyRow) -> Result<()> {
+        let texts = [&*row.case, &*row.points, &*row.smoothing];
+        self.0.push(&texts, &row.numbers())
     }
 
     /// Finishes the file and puts it in its place.

@@ -304,6 +304,35 @@ fn distances_image() -> Image {
     figure.draw(&page("Distances")).unwrap()
 }
 
+/// Ten rules, so that colours start again.
+fn convergence_image() -> Image {
+    let points = |rule: usize| -> Vec<ErrorPoint> {
+        let point = |power: i32| {
+            let median = 2_f64.powi(-power) / (1.0 + rule as f64);
+            ErrorPoint {
+                x: 2_f64.powi(power),
+                lower: 0.7 * median,
+                median,
+                upper: 1.4 * median,
+            }
+        };
+        (6..15).map(point).collect()
+    };
+    let curve = |rule: usize| {
+        ["L_{1} distance", "Error of σ / σ"].map(|measure| ErrorCurve {
+            name: format!("Rule {rule}"),
+            measure,
+            points: points(rule),
+        })
+    };
+    let curves: Vec<ErrorCurve<'_>> = (0..10).flat_map(curve).collect();
+    let figure = Convergence {
+        label: "Points, N",
+        curves: &curves,
+    };
+    figure.draw(&page("Convergence")).unwrap()
+}
+
 /// A name and a picture for every figure and option.
 pub(super) fn gallery() -> Vec<(&'static str, Image)> {
     use DensityScale::{Linear, Logarithmic, SquareRoot};
@@ -370,6 +399,7 @@ pub(super) fn gallery() -> Vec<(&'static str, Image)> {
         ),
         ("slices-many", slices_image(&acceleration, &many, None)),
         ("distances", distances_image()),
+        ("convergence", convergence_image()),
         ("failure", failure_image(0.4)),
         ("failure-rare", failure_image(1e-6)),
         ("failure-none", failure_image(0.0)),

@@ -102,6 +102,18 @@ case = { kind = "free-vibration", frequency = { lower = 4, upper = 5 }, amplitud
 times = { start = 0.5, step = 0.25, end = 1 }
 points_per_time = 500
 
+[study]
+scenario = "other.toml"
+set = ["bridge.span=30"]
+quantity = "bridge/midspan/displacement"
+reference = "exact"
+start = 0.5
+counts = [64, 128]
+seeds = 3
+seeds_above = { count = 64, seeds = 2 }
+points = [{ name = "random", set = ["points.rule=monte-carlo"], counts = [100], seeds = 2 }]
+density = [{ name = "kernel", set = ["density.points_per_time=100"], with = ["random"] }]
+
 [[random]]
 key = "bridge.flexural_rigidity"
 distribution = { kind = "normal", mean = 2.6e9, standard_deviation = 1e8 }

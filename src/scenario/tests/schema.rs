@@ -143,6 +143,12 @@ fn every_key_is_described_and_every_number_has_its_unit() {
         ".correlation.keys",
         ".density.quantities",
         ".simulation.record",
+        ".study.set",
+        ".study.counts",
+        ".study.points.set",
+        ".study.points.counts",
+        ".study.density.set",
+        ".study.density.with",
     ];
     for (key, schema) in all {
         let is_entry = lists_of_names.contains(&key.as_str());
@@ -205,9 +211,10 @@ fn every_choice_is_one_that_serde_knows() {
                 ".density.smoothing.kernel" => read::<CellKernelKind>(json),
                 ".density.grid" => read::<GridKind>(json),
                 ".reliability.limit.kind" => read::<LimitKind>(json),
+                ".study.reference" => read::<ReferenceKind>(json),
                 other => panic!("{other} is not tested here"),
             }
         }
     }
-    assert_eq!(count, 62);
+    assert_eq!(count, 64);
 }
