@@ -1,7 +1,6 @@
 //! Where an excitation in time comes from.
 
 use super::Context;
-use super::source::Source;
 use crate::Result;
 use crate::files::tabulated;
 use crate::irregularity::{
@@ -12,12 +11,12 @@ use crate::scenario::{
     Scenario, Sided,
 };
 
-/// The process of a scenario.
-pub(super) fn source(
+/// The process of a scenario, and the column that holds it.
+pub(super) fn process(
     context: &Context,
     scenario: &Scenario,
     spec: &ExcitationSpec,
-) -> Result<Source> {
+) -> Result<(&'static str, Irregularity)> {
     let grid = scenario.excitation_grid(spec)?;
     let spectrum = read_spectrum(context, scenario, spec)?;
     let band = &spec.frequency;
@@ -27,10 +26,7 @@ pub(super) fn source(
     if let Some(modulation) = spec.modulation.as_ref().map(ModulationSpec::build) {
         process = process.modulated(|time| modulation.at(time));
     }
-    Ok(Source {
-        component: Some(spec.component.component()),
-        irregularity: process,
-    })
+    Ok((spec.component.component(), process))
 }
 
 /// The spectrum of an excitation, its table read where it has one.

@@ -25,7 +25,11 @@ impl Source {
         if scenario.has("excitation") {
             let spec = scenario.excitation()?;
             scenario.check_truncation(points, "excitation", spec.field)?;
-            return excitation::source(context, scenario, &spec);
+            let (component, irregularity) = excitation::process(context, scenario, &spec)?;
+            return Ok(Source {
+                component: Some(component),
+                irregularity,
+            });
         }
         if scenario.has("oscillator") {
             let grid = Grid {
