@@ -2,7 +2,7 @@
 
 use super::control_variate::{ControlVariate, Controlled};
 use super::gaussians::Adaptive;
-use super::rule::{Extent, Fit, Rule, Sample, Smoothed, Values};
+use super::rule::{Extent, Fit, Rule, Sample, Smoothed};
 use super::{Curve, Nodes, Spread, WidthRule};
 
 /// Nodes of a controlled density, at least.
@@ -18,9 +18,7 @@ impl Rule for ControlVariate {
     }
 
     fn fit<'a>(&'a self, sample: &'a Sample<'a>) -> Box<dyn Fit + 'a> {
-        let Values::Each { values, .. } = sample.values else {
-            unreachable!("a rule that needs the points is given them")
-        };
+        let values = sample.each();
         match self.estimate(values, LEAST_NODES) {
             Some(controlled) if controlled.features > 0 => Box::new(controlled),
             uncontrolled => Box::new(Uncontrolled {

@@ -53,6 +53,14 @@ impl<'a> Sample<'a> {
             spread: sums.spread(interquartile, moments.effective_count),
         })
     }
+
+    /// The responses in the points' order, for a rule that needs them.
+    pub fn each(&self) -> &'a [f64] {
+        match self.values {
+            Values::Each { values, .. } => values,
+            Values::Bins(_) => unreachable!("a rule that needs the points is given them"),
+        }
+    }
 }
 
 /// Where a density is, and how far apart its nodes may be.

@@ -2,7 +2,7 @@
 
 use super::cumulative::Cumulative;
 use crate::density::known::{KnownPoints, Scale};
-use crate::density::rule::{Extent, Fit, Rule, Sample, Smoothed, Values};
+use crate::density::rule::{Extent, Fit, Rule, Sample, Smoothed};
 use crate::density::smoother::SmoothingError;
 use crate::density::{CellKernel, Nodes, Spread};
 use crate::probability::cumulative;
@@ -164,9 +164,7 @@ impl Rule for CellLine {
     }
 
     fn fit<'a>(&'a self, sample: &'a Sample<'a>) -> Box<dyn Fit + 'a> {
-        let Values::Each { values, .. } = sample.values else {
-            unreachable!("a rule that needs the points is given them")
-        };
+        let values = sample.each();
         let responses: Vec<f64> = self.order.iter().map(|k| values[*k]).collect();
         let fits = self.on_scale.iter().map(|on| {
             let (quadratics, error) = on.quadratics(&responses);

@@ -4,7 +4,7 @@ use super::cumulative::Cumulative;
 use super::neighbours::Neighbours;
 use super::quadratics::{Quadratics, neighbours_of, terms_of};
 use crate::density::known::{KnownPoints, Scale};
-use crate::density::rule::{Extent, Fit, Rule, Sample, Smoothed, Values};
+use crate::density::rule::{Extent, Fit, Rule, Sample, Smoothed};
 use crate::density::smoother::SmoothingError;
 use crate::density::{Nodes, Spread};
 use rayon::prelude::*;
@@ -235,9 +235,7 @@ impl Rule for CellSpace {
     }
 
     fn fit<'a>(&'a self, sample: &'a Sample<'a>) -> Box<dyn Fit + 'a> {
-        let Values::Each { values, .. } = sample.values else {
-            unreachable!("a rule that needs the points is given them")
-        };
+        let values = sample.each();
         let mut best = (f64::INFINITY, &self.choices[0], Vec::new());
         let mut coefficients = Vec::new();
         for choice in &self.choices {

@@ -6,6 +6,7 @@ use resvg::{tiny_skia, usvg};
 use super::image::parse;
 use super::*;
 
+mod errors;
 mod made;
 use made::{Made, failure_image, gallery, heat_map_image, page, slices_image};
 
