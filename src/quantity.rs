@@ -1,6 +1,10 @@
 //! The responses: one enum gives each its name, symbol, unit and description, so that a column, a
 //! topic and an axis label can't disagree.
 
+mod train;
+
+pub use train::{CarPart, TrackLayer, TrainQuantity, WheelResponse};
+
 /// A recorded response.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Quantity {
@@ -15,6 +19,8 @@ pub enum Quantity {
     ContactForce,
     /// The irregularity under the wheel.
     Irregularity,
+    /// A response of a train or of its track.
+    Train(TrainQuantity),
     /// A response of an oscillator, or of a storey of a chain of them, counted from 1.
     Oscillator {
         storey: Option<usize>,
@@ -64,6 +70,10 @@ pub enum VehiclePart {
 impl Motion {
     /// All of them.
     pub const ALL: [Motion; 3] = [Motion::Displacement, Motion::Velocity, Motion::Acceleration];
+
+    fn named(name: &str) -> Option<Motion> {
+        Motion::ALL.into_iter().find(|motion| motion.name() == name)
+    }
 
     fn name(self) -> &'static str {
         match self {
@@ -223,6 +233,9 @@ impl Quantity {
                 response,
             });
         }
+        if let Some(quantity) = TrainQuantity::named(name) {
+            return Some(Quantity::Train(quantity));
+        }
         let section = name
             .strip_prefix("bridge/")
             .and_then(|rest| rest.split_once('/'));
@@ -244,6 +257,7 @@ impl Quantity {
             }
             Quantity::ContactForce => "vehicle/wheel/contact_force".to_owned(),
             Quantity::Irregularity => "vehicle/wheel/irregularity".to_owned(),
+            Quantity::Train(quantity) => quantity.name(),
             Quantity::Oscillator { storey, response } => match storey {
                 Some(storey) => format!("oscillator/storey-{storey}/{}", response.name()),
                 None => format!("oscillator/{}", response.name()),
@@ -264,6 +278,7 @@ impl Quantity {
             Quantity::Vehicle { motion, .. } => motion.unit(),
             Quantity::ContactForce | Quantity::Force => "N",
             Quantity::Irregularity => "m",
+            Quantity::Train(quantity) => quantity.unit(),
             Quantity::Oscillator { response, .. } => response.unit(),
             Quantity::BaseAcceleration => "m/s2",
         }
@@ -283,6 +298,7 @@ impl Quantity {
             },
             Quantity::ContactForce | Quantity::Force => "F".to_owned(),
             Quantity::Irregularity => "η".to_owned(),
+            Quantity::Train(quantity) => quantity.symbol(),
             Quantity::Oscillator { response, .. } => response.symbol().to_owned(),
             Quantity::BaseAcceleration => "a_g".to_owned(),
         }
@@ -321,6 +337,7 @@ impl Quantity {
                 "contact force of wheel and deck, compression positive".to_owned()
             }
             Quantity::Irregularity => "irregularity under the wheel, upward positive".to_owned(),
+            Quantity::Train(quantity) => quantity.description(),
             Quantity::Oscillator { storey, response } => match storey {
                 Some(storey) => format!("storey {storey}: {}", response.description()),
                 None => format!("oscillator: {}", response.description()),

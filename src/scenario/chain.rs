@@ -90,7 +90,8 @@ impl Scenario {
             Quantity::Bridge { .. }
             | Quantity::Vehicle { .. }
             | Quantity::ContactForce
-            | Quantity::Irregularity => false,
+            | Quantity::Irregularity
+            | Quantity::Train(_) => false,
         };
         let available: Vec<Quantity> = available.into_iter().filter(is_there).collect();
         let names: Vec<String> = available.iter().map(Quantity::name).collect();

@@ -333,7 +333,8 @@ fn motion_of(quantity: &Quantity) -> Option<Motion> {
         | Quantity::Irregularity
         | Quantity::Oscillator { .. }
         | Quantity::BaseAcceleration
-        | Quantity::Force => None,
+        | Quantity::Force
+        | Quantity::Train(_) => None,
     }
 }
 

@@ -11,6 +11,7 @@ mod crossing;
 mod output;
 mod quarter_car;
 mod stability;
+pub mod train;
 
 pub use beam::{Beam, Section};
 pub use chain::{

@@ -48,7 +48,10 @@ impl OutputMap {
             Quantity::Vehicle { part, motion } => maps.vehicle().map(*part, *motion),
             Quantity::ContactForce => OutputMap::ContactForce,
             Quantity::Irregularity => OutputMap::Irregularity,
-            Quantity::Oscillator { .. } | Quantity::BaseAcceleration | Quantity::Force => {
+            Quantity::Oscillator { .. }
+            | Quantity::BaseAcceleration
+            | Quantity::Force
+            | Quantity::Train(_) => {
                 unreachable!("no response of a crossing")
             }
         }

@@ -328,7 +328,8 @@ impl<S: Simd, const W: usize> Work<'_, S, W> {
             Quantity::Bridge { .. }
             | Quantity::Vehicle { .. }
             | Quantity::ContactForce
-            | Quantity::Irregularity => unreachable!("no response of a chain"),
+            | Quantity::Irregularity
+            | Quantity::Train(_) => unreachable!("no response of a chain"),
         };
         let row = STATES * index;
         let less = |plane: usize| {
