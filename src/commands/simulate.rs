@@ -3,7 +3,7 @@
 use super::Context;
 use super::model::Model;
 use crate::cli;
-use crate::ensemble::{Divergence, LANES, Points, Stepper, Strip, System};
+use crate::ensemble::{Divergence, Points, Stepper, Strip, System};
 use crate::files::points::{PointsReader, ReadBatch};
 use crate::files::recording::{
     self, Axis, Band, QuantityHeader, RecordingHeader, RecordingWriter, band_layout,
@@ -15,9 +15,6 @@ use crate::{BadInput, Error, Result, interrupt, memory};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-
-/// Points that a thread steps before it writes their rows.
-const GROUP: usize = 6 * LANES;
 
 pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
     super::check_distinct(
@@ -292,25 +289,26 @@ impl Run<'_> {
             parameters: &batch.parameters,
             range: 0..batch.count,
         };
-        let outcomes: Vec<Result<(), (usize, Divergence)>> = Strip::cut(values, batch.count, GROUP)
-            .into_par_iter()
-            .enumerate()
-            .map_init(
-                || (self.system.stepper(), Vec::new()),
-                |(stepper, scratch), (number, mut strip)| {
-                    if interrupt::check().is_err() {
-                        return Ok(());
-                    }
-                    let first = number * GROUP;
-                    let group = points.part(first..first + strip.width());
-                    self.step_group(stepper.as_mut(), scratch, &group, &mut strip)
-                },
-            )
-            .collect();
+        let outcomes: Vec<Result<(), (usize, Divergence)>> =
+            Strip::cut(values, batch.count, self.system.group())
+                .into_par_iter()
+                .enumerate()
+                .map_init(
+                    || (self.system.stepper(), Vec::new()),
+                    |(stepper, scratch), (number, mut strip)| {
+                        if interrupt::check().is_err() {
+                            return Ok(());
+                        }
+                        let first = number * self.system.group();
+                        let group = points.part(first..first + strip.width());
+                        self.step_group(stepper.as_mut(), scratch, &group, &mut strip)
+                    },
+                )
+                .collect();
         interrupt::check()?;
         for (number, outcome) in outcomes.into_iter().enumerate() {
             outcome.map_err(|(lane, divergence)| {
-                let point = batch.first_point as usize + number * GROUP + lane;
+                let point = batch.first_point as usize + number * self.system.group() + lane;
                 let explained = self.system.explain(divergence);
                 Error::Numerical(format!("point {point}: {explained}"))
             })?;
@@ -329,9 +327,9 @@ impl Run<'_> {
     ) -> Result<(), (usize, Divergence)> {
         let width = strip.width();
         scratch.resize(self.rows() * width, 0.0);
-        let batches = Strip::cut(scratch, width, LANES).into_iter();
+        let batches = Strip::cut(scratch, width, self.system.lanes()).into_iter();
         for (number, mut part) in batches.enumerate() {
-            let first = number * LANES;
+            let first = number * self.system.lanes();
             let lanes = points.part(first..first + part.width());
             stepper
                 .run(&lanes, &mut part)

@@ -1,6 +1,6 @@
 //! Crossings of a bridge as a system whose points run in lockstep.
 
-use super::{Batch, Divergence, Points, Stepper, Strip, System, WheelPath};
+use super::{Batch, Divergence, LANES, Points, Stepper, Strip, System, WheelPath};
 use crate::system::{Crossing, CrossingMaps, CrossingTables};
 
 /// A crossing, and the places of its wheel on the irregularities of the points.
@@ -112,8 +112,9 @@ impl Stepper for CrossingStepper<'_> {
         if let Some(varied) = varied {
             self.batch.vary(varied.maps(points, tables));
         }
-        let fill =
-            |steps, out: &mut [f64]| path.fill(points.excitation, points.samples, steps, out);
+        let fill = |steps, out: &mut [f64]| {
+            path.fill(points.excitation, points.samples, steps, LANES, out)
+        };
         self.batch.run(fill, strip)
     }
 }

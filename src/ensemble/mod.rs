@@ -17,6 +17,7 @@ mod state;
 mod strip;
 mod suspension;
 mod system;
+mod train;
 mod vehicle;
 
 pub use batch::{Batch, Divergence};
@@ -26,6 +27,7 @@ pub use lanes::LANES;
 pub use path::WheelPath;
 pub use strip::Strip;
 pub use system::{Points, Stepper, System};
+pub use train::{Refusal, TRAIN_LANES, TrainCrossingOf, Trains};
 
 #[cfg(test)]
 mod tests;

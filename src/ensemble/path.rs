@@ -1,7 +1,6 @@
 //! The irregularity under the wheel: between the positions of a grid a cubic through the four
 //! nearest, with weights that all points share.
 
-use super::lanes::LANES;
 use std::ops::Range;
 
 /// Where each step's wheel position lies on the grid of an irregularity.
@@ -56,11 +55,18 @@ impl WheelPath {
         Some(WheelPath { stencils, on_grid })
     }
 
-    /// Fills `[step][lane]` for these steps from the lanes' rows `[lane][position]`; lanes beyond
-    /// the rows get zeros.
-    pub fn fill(&self, rows: &[f64], positions: usize, steps: Range<usize>, out: &mut [f64]) {
+    /// Fills `[step][lane]`, rows of `width` lanes, for these steps from the lanes' rows
+    /// `[lane][position]`; lanes beyond the rows get zeros.
+    pub fn fill(
+        &self,
+        rows: &[f64],
+        positions: usize,
+        steps: Range<usize>,
+        width: usize,
+        out: &mut [f64],
+    ) {
         let lanes = rows.len() / positions;
-        for (stencil, out) in self.stencils[steps].iter().zip(out.chunks_exact_mut(LANES)) {
+        for (stencil, out) in self.stencils[steps].iter().zip(out.chunks_exact_mut(width)) {
             let k = stencil.first;
             let (used, spare) = out.split_at_mut(lanes);
             spare.fill(0.0);
@@ -94,6 +100,7 @@ fn cubic(s: f64) -> [f64; 4] {
 
 #[cfg(test)]
 mod tests {
+    use super::super::LANES;
     use super::*;
 
     #[test]
@@ -104,7 +111,7 @@ mod tests {
         let positions: Vec<f64> = (0..81).map(|n| -2.0 + n as f64 * 0.125).collect();
         let path = WheelPath::new(&positions, start, spacing, count).unwrap();
         let mut out = vec![f64::NAN; positions.len() * LANES];
-        path.fill(&row, count, 0..positions.len(), &mut out);
+        path.fill(&row, count, 0..positions.len(), LANES, &mut out);
         for (n, x) in positions.iter().enumerate() {
             assert!((out[n * LANES] - f(*x)).abs() < 1e-13, "{x}");
             assert_eq!(out[n * LANES + 1], 0.0);

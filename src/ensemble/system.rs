@@ -3,13 +3,24 @@
 use super::{Divergence, Strip};
 use std::ops::Range;
 
-/// A system whose points run in lockstep, [`super::LANES`] at a time.
+/// A system whose points run in lockstep, [`System::lanes`] at a time.
 pub trait System: Sync {
     /// The recorded times (s).
     fn times(&self) -> Vec<f64>;
 
     /// The number of values recorded at each time.
     fn outputs(&self) -> usize;
+
+    /// Points that are stepped together.
+    fn lanes(&self) -> usize {
+        super::LANES
+    }
+
+    /// Points that a thread steps before it writes their rows: a multiple of `lanes`, as many as the cache holds the
+    /// rows of.
+    fn group(&self) -> usize {
+        6 * self.lanes()
+    }
 
     /// What steps batches of points; each thread has its own.
     fn stepper(&self) -> Box<dyn Stepper + '_>;
@@ -20,7 +31,7 @@ pub trait System: Sync {
 
 /// Runs one batch after another, reusing its memory.
 pub trait Stepper {
-    /// Runs at most [`super::LANES`] points; the strip takes their rows `[record][output]`.
+    /// Runs at most [`System::lanes`] points; the strip takes their rows `[record][output]`.
     ///
     /// # Errors
     /// The first lane that leaves all bounds.

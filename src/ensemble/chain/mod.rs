@@ -218,7 +218,7 @@ impl ChainStepper<'_> {
             2 * steps.start..(2 * steps.end).min(last) + 1
         };
         let out = &mut self.excitation.values_mut()[..rows.len() * LANES];
-        path.fill(points.excitation, points.samples, rows, out);
+        path.fill(points.excitation, points.samples, rows, LANES, out);
     }
 
     /// Steps of the current chunk, of which the first is number `row` of the chunk.

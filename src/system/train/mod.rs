@@ -10,15 +10,19 @@
 //! coordinates are measured from the static equilibrium on a level and rigid rail, where the compression is δ_W
 //! under the weight Wᵢ; track and bridge are measured from their state without the train. Upward is positive.
 
+mod assembly;
 mod car;
 mod contact;
 mod deck;
+mod matrices;
 mod multibody;
 mod track;
 
+pub use assembly::{Assembly, Bed, CarRows, DeckRows, Place, TrackRows, TrainWheel};
 pub use car::{Axle, Car, HalfCar, RailVehicle};
 pub use contact::{Contact, WheelProfile};
-pub use deck::{Bearings, Deck, DeckDamping, Spans};
+pub use deck::{Bearings, Deck, DeckDamping, DeckModes, Inner, Spans};
+pub use matrices::{Matrices, hermite};
 pub use multibody::{Body, Multibody, Spring, Wheel};
 pub use track::{Ballast, Fastener, OnBridge, Rail, Slab, Support, Track};
 

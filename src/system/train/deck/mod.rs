@@ -1,5 +1,12 @@
 //! The bridge: spans in a row, by their modes.
 
+mod elements;
+mod modes;
+#[cfg(test)]
+mod tests;
+
+pub use modes::{DeckModes, Inner};
+
 use crate::system::Section;
 
 /// Spans of one cross section.
@@ -48,4 +55,22 @@ pub enum DeckDamping {
 pub struct Bearings {
     pub stiffness: f64,
     pub damping: f64,
+}
+
+impl Deck {
+    /// From the first to the last end (m).
+    pub fn length(&self) -> f64 {
+        self.spans.iter().sum()
+    }
+
+    /// The place of a named section (m); `midspan` is the middle of the middle span.
+    pub fn section(&self, name: &str) -> Option<f64> {
+        if name == "midspan" {
+            let middle = (self.spans.len() - 1) / 2;
+            let before: f64 = self.spans[..middle].iter().sum();
+            return Some(before + 0.5 * self.spans[middle]);
+        }
+        let found = self.sections.iter().find(|section| section.name == name)?;
+        Some(found.position)
+    }
 }

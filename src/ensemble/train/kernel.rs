@@ -1,0 +1,501 @@
+//! The step of a train, in vectors of lanes.
+//!
+//! The implicit midpoint rule (Newmark's average acceleration) for the velocity w in the middle of a step:
+//!
+//! ```text
+//! A w = r − Σ Bᵢ Fᵢ,      A = 2M/h + C + h K/2,      r = 2 M v/h − K u − Σ eᵢ Wᵢ,
+//! u⁺ = u + h w,      s⁺ = s + h K w,      r⁺ = r + 2 (−Σ eᵢ Wᵢ − Σ Bᵢ Fᵢ − s⁺ − C w),
+//! ```
+//!
+//! with s = K u, so that no product with M is needed. The forces act in the middle of the step, where the compression
+//! is δᵢ = Bᵢᵀ (u + h w/2) + ηᵢ + δ_W: they are found between the two sweeps of the solution of A, by the columns of
+//! [`super::meeting`]. Rates and accelerations at a recorded time are those of the two steps beside it, v = (w⁻ + w)/2 and
+//! a = (w − w⁻)/h, forces (F⁻ + F)/2: the scheme's ripple from one step to the next is not in them.
+
+use super::lanes::{Numbers, Row, TRAIN_LANES, each, load, neg_mul_add, store};
+use super::meeting::Meeting;
+use super::outputs::Output;
+use super::shape::{
+    COMPRESSION, HALF_STEP, INVERSE_STEP, Law, OF_WHEEL, SOFTNESS, STEP, Shape, WEIGHT,
+};
+use super::state::State;
+use crate::ensemble::Strip;
+use pulp::{Simd, WithSimd};
+use std::ops::Range;
+
+/// Steps of one batch.
+pub(super) struct Kernel<'a, 'b, N> {
+    pub shape: &'a Shape,
+    pub numbers: N,
+    /// The meetings of these steps, the first of them of step `steps.start`.
+    pub meetings: &'a [Meeting],
+    /// Numbers of the meetings are rows of lanes.
+    pub varied: bool,
+    pub state: &'a mut State,
+    pub steps: Range<usize>,
+    /// η `[step][wheel][lane]` (m) in the middle of these steps.
+    pub irregularity: &'a [f64],
+    pub strip: &'a mut Strip<'b>,
+    pub width: usize,
+}
+
+impl<N: Numbers> WithSimd for Kernel<'_, '_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        match S::F64_LANES {
+            8 => self.run::<S, { TRAIN_LANES / 8 }>(simd),
+            4 => self.run::<S, { TRAIN_LANES / 4 }>(simd),
+            2 => self.run::<S, { TRAIN_LANES / 2 }>(simd),
+            _ => self.run::<S, TRAIN_LANES>(simd),
+        }
+    }
+}
+
+impl<N: Numbers> Kernel<'_, '_, N> {
+    #[inline(always)]
+    fn run<S: Simd, const W: usize>(mut self, simd: S) {
+        let shape = self.shape;
+        let wheels = shape.wheels.len();
+        let every = shape.crossing.record_every;
+        let rows = self
+            .irregularity
+            .chunks_exact((wheels * TRAIN_LANES).max(1));
+        let steps = self.steps.clone();
+        for (index, (n, eta)) in steps.zip(rows).enumerate() {
+            let meeting = &self.meetings[index];
+            self.forward::<S, W>(simd, n);
+            self.meet::<S, W>(simd, meeting, n, eta);
+            self.backward::<S, W>(simd);
+            if n % every == 0 {
+                self.record::<S, W>(simd, n, eta);
+            }
+            std::mem::swap(&mut self.state.now, &mut self.state.next);
+            std::mem::swap(&mut self.state.force, &mut self.state.force_next);
+        }
+    }
+
+    /// Ends the step before (its w and F in `now` and `force`), and sweeps forward: y = L⁻¹ r in `next`.
+    #[inline(always)]
+    fn forward<S: Simd, const W: usize>(&mut self, simd: S, n: usize) {
+        let shape = self.shape;
+        let layout = &shape.layout;
+        let state = &mut *self.state;
+        let two = simd.splat_f64s(2.0);
+        let wheels = shape.wheels.len();
+        for (index, wheel) in shape.wheels.iter().enumerate() {
+            // Twice the forces of the step before: −Bᵢ Fᵢ − eᵢ Wᵢ.
+            let force: Row<S, W> = load(simd, &state.force.values()[index * TRAIN_LANES..]);
+            let doubled = each!(simd, j => simd.mul_f64s(two, force[j]));
+            if n > 0 {
+                let place = &shape.places[(n - 1) * wheels + index];
+                for (row, share) in &place.terms {
+                    let share = simd.splat_f64s(-share);
+                    let values = &mut state.load.values_mut()[row * TRAIN_LANES..];
+                    let r: Row<S, W> = load(simd, values);
+                    let r = each!(simd, j => simd.mul_add_f64s(share, doubled[j], r[j]));
+                    store(simd, values, &r);
+                }
+            }
+            if let Some(row) = wheel.row {
+                let at = layout.wheels + OF_WHEEL * index + WEIGHT;
+                let weight: Row<S, W> = self.numbers.row(simd, at);
+                let values = &mut state.load.values_mut()[row * TRAIN_LANES..];
+                let r: Row<S, W> = load(simd, values);
+                let lifted = if n > 0 {
+                    doubled
+                } else {
+                    [simd.splat_f64s(0.0); W]
+                };
+                let r = each!(simd, j => {
+                    let net = simd.sub_f64s(lifted[j], simd.mul_f64s(two, weight[j]));
+                    simd.add_f64s(r[j], net)
+                });
+                store(simd, values, &r);
+            }
+        }
+        let h: Row<S, W> = self.numbers.row(simd, layout.constants + STEP);
+        let stiffness = self.numbers.from(layout.stiffness);
+        let damping = self.numbers.from(layout.damping);
+        let lower = self.numbers.from(layout.forward);
+        let pattern = &shape.pattern;
+        let w = S::as_simd_f64s(state.now.values()).0.as_chunks::<W>().0;
+        let y = S::as_mut_simd_f64s(state.next.values_mut())
+            .0
+            .as_chunks_mut::<W>()
+            .0;
+        let u = S::as_mut_simd_f64s(state.displacement.values_mut())
+            .0
+            .as_chunks_mut::<W>()
+            .0;
+        let s = S::as_mut_simd_f64s(state.spring.values_mut())
+            .0
+            .as_chunks_mut::<W>()
+            .0;
+        let r = S::as_mut_simd_f64s(state.load.values_mut())
+            .0
+            .as_chunks_mut::<W>()
+            .0;
+        let minus_two = simd.splat_f64s(-2.0);
+        for row in 0..pattern.size {
+            let mut spring = s[row];
+            for place in pattern.stiffness.range(row) {
+                let k: Row<S, W> = stiffness.row(simd, place);
+                let x = &w[pattern.stiffness.columns[place] as usize];
+                for j in 0..W {
+                    spring[j] = simd.mul_add_f64s(k[j], x[j], spring[j]);
+                }
+            }
+            s[row] = spring;
+            let mut pull = spring;
+            for place in pattern.damping.range(row) {
+                let c: Row<S, W> = damping.row(simd, place);
+                let x = &w[pattern.damping.columns[place] as usize];
+                for j in 0..W {
+                    pull[j] = simd.mul_add_f64s(c[j], x[j], pull[j]);
+                }
+            }
+            let mut load = r[row];
+            for j in 0..W {
+                load[j] = simd.mul_add_f64s(minus_two, pull[j], load[j]);
+                u[row][j] = simd.mul_add_f64s(h[j], w[row][j], u[row][j]);
+            }
+            r[row] = load;
+            for place in pattern.factor.range(row) {
+                let l: Row<S, W> = lower.row(simd, place);
+                let x = &y[pattern.factor.columns[place] as usize];
+                for j in 0..W {
+                    load[j] = simd.mul_add_f64s(l[j], x[j], load[j]);
+                }
+            }
+            y[row] = load;
+        }
+    }
+
+    /// Finds the contact forces and takes them from y.
+    #[inline(always)]
+    fn meet<S: Simd, const W: usize>(&mut self, simd: S, meeting: &Meeting, n: usize, eta: &[f64]) {
+        let shape = self.shape;
+        let wheels = shape.wheels.len();
+        let half_step: Row<S, W> = self.numbers.row(simd, shape.layout.constants + HALF_STEP);
+        let inverse = self.numbers.from(shape.layout.inverse);
+        for index in 0..wheels {
+            let own = shape.layout.wheels + OF_WHEEL * index;
+            let mut reached = [simd.splat_f64s(0.0); W];
+            for (range, first) in meeting.reaches[index].parts() {
+                for (k, row) in range.enumerate() {
+                    let g = self.meeting_row::<S, W>(simd, &meeting.columns, first + k);
+                    let d: Row<S, W> = inverse.row(simd, row);
+                    let y: Row<S, W> = load(simd, &self.state.next.values()[row * TRAIN_LANES..]);
+                    reached = each!(simd, j => {
+                        let gd = simd.mul_f64s(g[j], d[j]);
+                        simd.mul_add_f64s(gd, y[j], reached[j])
+                    });
+                }
+            }
+            let compression: Row<S, W> = self.numbers.row(simd, own + COMPRESSION);
+            let eta: Row<S, W> = load(simd, &eta[index * TRAIN_LANES..]);
+            let mut gap = each!(simd, j => {
+                let known = simd.add_f64s(compression[j], eta[j]);
+                simd.mul_add_f64s(half_step[j], reached[j], known)
+            });
+            let u = self.state.displacement.values();
+            for (row, share) in &shape.places[n * wheels + index].terms {
+                let share = simd.splat_f64s(*share);
+                let u: Row<S, W> = load(simd, &u[row * TRAIN_LANES..]);
+                gap = each!(simd, j => simd.mul_add_f64s(share, u[j], gap[j]));
+            }
+            if let Some(row) = shape.wheels[index].row {
+                let u: Row<S, W> = load(simd, &u[row * TRAIN_LANES..]);
+                gap = each!(simd, j => simd.sub_f64s(gap[j], u[j]));
+            }
+            store(
+                simd,
+                &mut self.state.gap.values_mut()[index * TRAIN_LANES..],
+                &gap,
+            );
+        }
+        if shape.laws.contains(&Law::Hertz) {
+            self.relax::<S, W>(simd, meeting);
+        } else {
+            self.substitute::<S, W>(simd, meeting);
+        }
+        for index in 0..wheels {
+            let force: Row<S, W> =
+                load(simd, &self.state.force_next.values()[index * TRAIN_LANES..]);
+            for (range, first) in meeting.reaches[index].parts() {
+                for (k, row) in range.enumerate() {
+                    let g = self.meeting_row::<S, W>(simd, &meeting.columns, first + k);
+                    let values = &mut self.state.next.values_mut()[row * TRAIN_LANES..];
+                    let y: Row<S, W> = load(simd, values);
+                    let y = each!(simd, j => neg_mul_add(simd, g[j], force[j], y[j]));
+                    store(simd, values, &y);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn meeting_row<S: Simd, const W: usize>(
+        &self,
+        simd: S,
+        values: &[f64],
+        index: usize,
+    ) -> Row<S, W> {
+        if self.varied {
+            load(simd, &values[index * TRAIN_LANES..])
+        } else {
+            [simd.splat_f64s(values[index]); W]
+        }
+    }
+
+    /// Linear laws: by the factor of the meeting.
+    #[inline(always)]
+    fn substitute<S: Simd, const W: usize>(&mut self, simd: S, meeting: &Meeting) {
+        let shape = self.shape;
+        let wheels = shape.wheels.len();
+        let is_force = |k: usize| shape.laws[k] == Law::Force;
+        for i in 0..wheels {
+            if is_force(i) {
+                let at = shape.layout.wheels + OF_WHEEL * i + WEIGHT;
+                let weight: Row<S, W> = self.numbers.row(simd, at);
+                store(
+                    simd,
+                    &mut self.state.force_next.values_mut()[i * TRAIN_LANES..],
+                    &weight,
+                );
+            }
+        }
+        for i in (0..wheels).filter(|i| !is_force(*i)) {
+            let mut sum: Row<S, W> = load(simd, &self.state.gap.values()[i * TRAIN_LANES..]);
+            for j in 0..wheels {
+                let from = if is_force(j) {
+                    &meeting.yielding
+                } else if j < i {
+                    &meeting.solved
+                } else {
+                    continue;
+                };
+                let l = self.meeting_row::<S, W>(simd, from, i * wheels + j);
+                let x: Row<S, W> = load(simd, &self.state.force_next.values()[j * TRAIN_LANES..]);
+                sum = each!(simd, v => neg_mul_add(simd, l[v], x[v], sum[v]));
+            }
+            store(
+                simd,
+                &mut self.state.force_next.values_mut()[i * TRAIN_LANES..],
+                &sum,
+            );
+        }
+        for i in (0..wheels).rev().filter(|i| !is_force(*i)) {
+            let values = &self.state.force_next.values()[i * TRAIN_LANES..];
+            let y: Row<S, W> = load(simd, values);
+            let d = self.meeting_row::<S, W>(simd, &meeting.solved, i * wheels + i);
+            let mut x = each!(simd, v => simd.mul_f64s(d[v], y[v]));
+            for j in (i + 1..wheels).filter(|j| !is_force(*j)) {
+                let l = self.meeting_row::<S, W>(simd, &meeting.solved, j * wheels + i);
+                let other: Row<S, W> =
+                    load(simd, &self.state.force_next.values()[j * TRAIN_LANES..]);
+                x = each!(simd, v => neg_mul_add(simd, l[v], other[v], x[v]));
+            }
+            store(
+                simd,
+                &mut self.state.force_next.values_mut()[i * TRAIN_LANES..],
+                &x,
+            );
+        }
+    }
+
+    /// Hertz's law at some wheel: each wheel in turn under the others' forces, always as often, so that a lane does not
+    /// depend on its neighbours. Wheels feel each other's forces of the same step by a hundredth at most, so that each
+    /// round gains two digits.
+    #[inline(always)]
+    fn relax<S: Simd, const W: usize>(&mut self, simd: S, meeting: &Meeting) {
+        const ROUNDS: usize = 6;
+        let shape = self.shape;
+        let wheels = shape.wheels.len();
+        let before = self.state.force.values();
+        self.state.force_next.values_mut().copy_from_slice(before);
+        for round in 0..ROUNDS {
+            for i in 0..wheels {
+                let own = shape.layout.wheels + OF_WHEEL * i;
+                let mut gap: Row<S, W> = load(simd, &self.state.gap.values()[i * TRAIN_LANES..]);
+                for j in (0..wheels).filter(|j| *j != i) {
+                    let c = self.meeting_row::<S, W>(simd, &meeting.yielding, i * wheels + j);
+                    let f: Row<S, W> =
+                        load(simd, &self.state.force_next.values()[j * TRAIN_LANES..]);
+                    gap = each!(simd, v => neg_mul_add(simd, c[v], f[v], gap[v]));
+                }
+                let yielding = self.meeting_row::<S, W>(simd, &meeting.yielding, i * wheels + i);
+                let softness: Row<S, W> = self.numbers.row(simd, own + SOFTNESS);
+                let force = match shape.laws[i] {
+                    Law::Force => self.numbers.row(simd, own + WEIGHT),
+                    Law::Linear => each!(simd, v => {
+                        simd.div_f64s(gap[v], simd.add_f64s(yielding[v], softness[v]))
+                    }),
+                    Law::Hertz => {
+                        let values = &mut self.state.root.values_mut()[i * TRAIN_LANES..];
+                        let before: Row<S, W> = load(simd, values);
+                        let steps = if round == 0 { 6 } else { 2 };
+                        let root = hertz(simd, &gap, &softness, &yielding, &before, steps);
+                        store(simd, values, &root);
+                        each!(simd, v => {
+                            simd.mul_f64s(root[v], simd.mul_f64s(root[v], root[v]))
+                        })
+                    }
+                };
+                store(
+                    simd,
+                    &mut self.state.force_next.values_mut()[i * TRAIN_LANES..],
+                    &force,
+                );
+            }
+        }
+    }
+
+    /// w = L⁻ᵀ D⁻¹ y, in place.
+    #[inline(always)]
+    fn backward<S: Simd, const W: usize>(&mut self, simd: S) {
+        let pattern = &self.shape.pattern;
+        let layout = &self.shape.layout;
+        let inverse = self.numbers.from(layout.inverse);
+        let upper = self.numbers.from(layout.backward);
+        let y = S::as_mut_simd_f64s(self.state.next.values_mut())
+            .0
+            .as_chunks_mut::<W>()
+            .0;
+        for row in (0..pattern.size).rev() {
+            let d: Row<S, W> = inverse.row(simd, row);
+            let mut x = y[row];
+            for j in 0..W {
+                x[j] = simd.mul_f64s(d[j], x[j]);
+            }
+            for place in pattern.factor_columns.range(row) {
+                let l: Row<S, W> = upper.row(simd, place);
+                let other = &y[pattern.factor_columns.columns[place] as usize];
+                for j in 0..W {
+                    x[j] = simd.mul_add_f64s(l[j], other[j], x[j]);
+                }
+            }
+            y[row] = x;
+        }
+    }
+
+    /// The outputs at the start of step n, between the step before and this one.
+    #[inline(always)]
+    fn record<S: Simd, const W: usize>(&mut self, simd: S, n: usize, eta: &[f64]) {
+        let shape = self.shape;
+        let outputs = shape.outputs.all.len();
+        let wheels = shape.wheels.len();
+        let first_row = n / shape.crossing.record_every * outputs;
+        let numbers = self.numbers.from(shape.layout.outputs);
+        let half = simd.splat_f64s(0.5);
+        let zero = simd.splat_f64s(0.0);
+        // At rest before the first step: no rate, and half of its w in both directions.
+        let started = n > 0;
+        let inverse: Row<S, W> = self
+            .numbers
+            .row(simd, shape.layout.constants + INVERSE_STEP);
+        let force = |state: &State, wheel: usize| -> Row<S, W> {
+            let now: Row<S, W> = load(simd, &state.force_next.values()[wheel * TRAIN_LANES..]);
+            if !started {
+                return now;
+            }
+            let before: Row<S, W> = load(simd, &state.force.values()[wheel * TRAIN_LANES..]);
+            each!(simd, j => simd.mul_f64s(half, simd.add_f64s(now[j], before[j])))
+        };
+        for (k, output) in shape.outputs.all.iter().enumerate() {
+            let value: Row<S, W> = match output {
+                Output::Motion { planes, first } | Output::Fed { planes, first, .. } => {
+                    let mut at = *first;
+                    let mut sum = [zero; W];
+                    for (plane, rows) in planes.iter().enumerate() {
+                        for row in rows {
+                            let c: Row<S, W> = numbers.row(simd, at);
+                            at += 1;
+                            let range = row * TRAIN_LANES..;
+                            let x: Row<S, W> = if plane == 0 {
+                                load(simd, &self.state.displacement.values()[range])
+                            } else {
+                                let after: Row<S, W> =
+                                    load(simd, &self.state.next.values()[range.clone()]);
+                                let before: Row<S, W> = load(simd, &self.state.now.values()[range]);
+                                if plane == 1 {
+                                    let both = if started { half } else { zero };
+                                    each!(simd, j => simd.mul_f64s(
+                                        both, simd.add_f64s(after[j], before[j])
+                                    ))
+                                } else if started {
+                                    each!(simd, j => simd.mul_f64s(
+                                        inverse[j], simd.sub_f64s(after[j], before[j])
+                                    ))
+                                } else {
+                                    each!(simd, j => simd.mul_f64s(
+                                        simd.add_f64s(inverse[j], inverse[j]), after[j]
+                                    ))
+                                }
+                            };
+                            sum = each!(simd, j => simd.mul_add_f64s(c[j], x[j], sum[j]));
+                        }
+                    }
+                    if let Output::Fed { shares, .. } = output {
+                        for wheel in 0..wheels {
+                            let share = simd.splat_f64s(-shares[n * wheels + wheel]);
+                            let f = force(self.state, wheel);
+                            sum = each!(simd, j => simd.mul_add_f64s(share, f[j], sum[j]));
+                        }
+                    }
+                    sum
+                }
+                Output::Contact(wheel) => force(self.state, *wheel),
+                Output::Unloading(wheel) => {
+                    let at = shape.layout.wheels + OF_WHEEL * wheel + WEIGHT;
+                    let weight: Row<S, W> = self.numbers.row(simd, at);
+                    let f = force(self.state, *wheel);
+                    each!(simd, j => {
+                        let ratio = simd.div_f64s(f[j], weight[j]);
+                        simd.sub_f64s(simd.splat_f64s(1.0), ratio)
+                    })
+                }
+                Output::Irregularity(wheel) => load(simd, &eta[wheel * TRAIN_LANES..]),
+            };
+            let mut row = [0.0; TRAIN_LANES];
+            store(simd, &mut row, &value);
+            self.strip
+                .row(first_row + k)
+                .copy_from_slice(&row[..self.width]);
+        }
+    }
+}
+
+/// F^(1/3) of δ = G F^(2/3) = gap − κ F for gap > 0, else 0: Newton's method from above on G s² + κ s³ = gap.
+#[inline(always)]
+fn hertz<S: Simd, const W: usize>(
+    simd: S,
+    gap: &Row<S, W>,
+    constant: &Row<S, W>,
+    yielding: &Row<S, W>,
+    before: &Row<S, W>,
+    steps: usize,
+) -> Row<S, W> {
+    let zero = simd.splat_f64s(0.0);
+    let two = simd.splat_f64s(2.0);
+    let three = simd.splat_f64s(3.0);
+    each!(simd, j => {
+        let closed = simd.greater_than_f64s(gap[j], zero);
+        // Without yielding; no root lies above.
+        let most = simd.sqrt_f64s(simd.div_f64s(simd.max_f64s(gap[j], zero), constant[j]));
+        // A start far below the root would be thrown far above it.
+        let near = simd.greater_than_f64s(simd.mul_f64s(three, before[j]), most);
+        let mut s = simd.select_f64s(near, simd.min_f64s(before[j], most), most);
+        for _ in 0..steps {
+            let ks = simd.mul_f64s(yielding[j], s);
+            let value = simd.mul_f64s(simd.mul_f64s(s, s), simd.add_f64s(constant[j], ks));
+            let twice = simd.mul_f64s(two, constant[j]);
+            let slope = simd.mul_f64s(s, simd.mul_add_f64s(three, ks, twice));
+            let step = simd.div_f64s(simd.sub_f64s(value, gap[j]), slope);
+            s = simd.sub_f64s(s, step);
+        }
+        simd.select_f64s(closed, s, zero)
+    })
+}

@@ -1,0 +1,83 @@
+//! Vectors of lanes, and numbers that all lanes share or each has for itself.
+
+use pulp::Simd;
+
+/// Points that are stepped together: fewer than the quarter car's, since the state of a track has to stay in the cache.
+pub const TRAIN_LANES: usize = 16;
+
+/// A row of lanes in `W` vectors.
+pub(super) type Row<S, const W: usize> = [<S as Simd>::f64s; W];
+
+/// A list of numbers as the kernel loads them.
+pub(super) trait Numbers: Copy {
+    /// Number `index` in all lanes.
+    fn row<S: Simd, const W: usize>(self, simd: S, index: usize) -> Row<S, W>;
+
+    /// The numbers from `first` on.
+    fn from(self, first: usize) -> Self;
+}
+
+/// One value for all lanes.
+#[derive(Clone, Copy)]
+pub(super) struct Shared<'a>(pub &'a [f64]);
+
+impl Numbers for Shared<'_> {
+    #[inline(always)]
+    fn row<S: Simd, const W: usize>(self, simd: S, index: usize) -> Row<S, W> {
+        [simd.splat_f64s(self.0[index]); W]
+    }
+
+    #[inline(always)]
+    fn from(self, first: usize) -> Self {
+        Shared(&self.0[first..])
+    }
+}
+
+/// A value a lane: rows `[number][lane]`, W vectors each.
+#[derive(Clone, Copy)]
+pub(super) struct PerLane<'a>(pub &'a [f64]);
+
+impl Numbers for PerLane<'_> {
+    #[inline(always)]
+    fn row<S: Simd, const W: usize>(self, simd: S, index: usize) -> Row<S, W> {
+        load(simd, &self.0[index * TRAIN_LANES..])
+    }
+
+    #[inline(always)]
+    fn from(self, first: usize) -> Self {
+        PerLane(&self.0[first * TRAIN_LANES..])
+    }
+}
+
+/// The first W vectors of some values.
+#[inline(always)]
+pub(super) fn load<S: Simd, const W: usize>(_: S, values: &[f64]) -> Row<S, W> {
+    let vectors = S::as_simd_f64s(&values[..W * S::F64_LANES]).0;
+    std::array::from_fn(|j| vectors[j])
+}
+
+/// Writes W vectors over the first values.
+#[inline(always)]
+pub(super) fn store<S: Simd, const W: usize>(_: S, values: &mut [f64], row: &Row<S, W>) {
+    let vectors = S::as_mut_simd_f64s(&mut values[..W * S::F64_LANES]).0;
+    vectors.copy_from_slice(row);
+}
+
+/// A row by an expression for vector `j`. (A closure might not be inlined, and would then lose the machine's
+/// vectors.)
+macro_rules! each {
+    ($simd:expr, $j:ident => $value:expr) => {{
+        let mut row = [$simd.splat_f64s(0.0); W];
+        for $j in 0..W {
+            row[$j] = $value;
+        }
+        row
+    }};
+}
+pub(super) use each;
+
+/// c − a b.
+#[inline(always)]
+pub(super) fn neg_mul_add<S: Simd>(simd: S, a: S::f64s, b: S::f64s, c: S::f64s) -> S::f64s {
+    simd.mul_add_f64s(simd.neg_f64s(a), b, c)
+}

@@ -1,0 +1,404 @@
+//! All coordinates of a crossing, and their matrices.
+//!
+//! Rows: the cars one after the other; then, from the track's start to its end, what each fastener rests on and
+//! the rail above it (so that a factor of the matrices stays narrow); then the modes of the bridge.
+
+use super::{
+    Ballast, DeckModes, Matrices, Multibody, Slab, Spring, Support, Track, TrainCrossing, Wheel,
+    hermite,
+};
+
+/// A crossing's coordinates.
+#[derive(Debug, Clone)]
+pub struct Assembly {
+    pub matrices: Matrices,
+    pub cars: Vec<CarRows>,
+    pub track: Option<TrackRows>,
+    pub deck: Option<DeckRows>,
+}
+
+/// Where a car's coordinates are.
+#[derive(Debug, Clone)]
+pub struct CarRows {
+    pub first: usize,
+    pub bodies: Multibody,
+    /// From the train's first wheel back to the car's first wheel (m).
+    pub behind: f64,
+}
+
+/// Where the track's are.
+#[derive(Debug, Clone)]
+pub struct TrackRows {
+    /// Of the first node of the rail (m), between two nodes (m).
+    pub start: f64,
+    pub step: f64,
+    /// EI (N m²) of the rail.
+    pub rigidity: f64,
+    /// Of each node of the rail: the row of its deflection; the slope's is the next.
+    pub rail: Vec<usize>,
+    /// Of each fastener, where the track has them.
+    pub sleepers: Vec<usize>,
+    /// None on the bridge.
+    pub ballast: Vec<Option<usize>>,
+    pub slabs: Vec<usize>,
+    /// What presses on the deck.
+    pub beds: Vec<Bed>,
+}
+
+/// A spring between the row above and the deck at a place.
+#[derive(Debug, Clone)]
+pub struct Bed {
+    pub above: usize,
+    /// m from the bridge's first end.
+    pub position: f64,
+    /// N/m, N s/m.
+    pub stiffness: f64,
+    pub damping: f64,
+}
+
+/// Where the deck's modes are.
+#[derive(Debug, Clone)]
+pub struct DeckRows {
+    pub first: usize,
+    pub modes: DeckModes,
+}
+
+/// What carries a wheel at a place.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Place {
+    /// (row, share) of the displacement there.
+    pub terms: Vec<(usize, f64)>,
+    /// What the rail yields between its nodes under a unit force, beyond these terms (m/N).
+    pub flexibility: f64,
+}
+
+/// A wheel of the train.
+#[derive(Debug, Clone)]
+pub struct TrainWheel {
+    /// Its car and its place in it, from 0.
+    pub car: usize,
+    pub number: usize,
+    /// From the train's first wheel (m).
+    pub behind: f64,
+    /// The row of its coordinate.
+    pub row: Option<usize>,
+    pub wheel: Wheel,
+}
+
+impl TrainCrossing {
+    /// Collects the matrices.
+    pub fn assembly(&self) -> Assembly {
+        let mut matrices = Matrices::default();
+        let cars = self.cars.iter().map(|placed| {
+            let bodies = placed.car.multibody(self.gravity);
+            let first = matrices.grow(bodies.inertia.len());
+            for (k, inertia) in bodies.inertia.iter().enumerate() {
+                matrices.mass(first + k, *inertia);
+            }
+            for spring in &bodies.springs {
+                matrices.spring(first, spring);
+            }
+            CarRows {
+                first,
+                bodies,
+                behind: placed.behind,
+            }
+        });
+        let cars = cars.collect();
+        let modes = self.deck.as_ref().map(|deck| {
+            let added = self.track.as_ref().map_or(0.0, Track::mass_on_deck);
+            DeckModes::new(deck, added)
+        });
+        let track = self
+            .track
+            .as_ref()
+            .map(|track| track.assemble(&mut matrices, modes.as_ref()));
+        let deck = modes.map(|modes| {
+            let first = matrices.grow(modes.count());
+            for (i, j, value) in modes.matrices() {
+                matrices
+                    .places
+                    .push(((first + i) as u32, (first + j) as u32));
+                matrices.values.push(value);
+            }
+            DeckRows { first, modes }
+        });
+        if let (Some(track), Some(deck)) = (&track, &deck) {
+            for bed in &track.beds {
+                let shapes = deck.modes.shapes(bed.position);
+                let shapes = shapes.into_iter().map(|(k, phi)| (deck.first + k, -phi));
+                let spring = Spring {
+                    elongation: [(bed.above, 1.0)].into_iter().chain(shapes).collect(),
+                    stiffness: bed.stiffness,
+                    damping: bed.damping,
+                };
+                matrices.spring(0, &spring);
+            }
+        }
+        Assembly {
+            matrices,
+            cars,
+            track,
+            deck,
+        }
+    }
+}
+
+impl Assembly {
+    /// The wheels, from the first car's first on.
+    pub fn wheels(&self) -> Vec<TrainWheel> {
+        let mut wheels = Vec::new();
+        for (car, rows) in self.cars.iter().enumerate() {
+            for (number, wheel) in rows.bodies.wheels.iter().enumerate() {
+                wheels.push(TrainWheel {
+                    car,
+                    number,
+                    behind: rows.behind + wheel.behind,
+                    row: wheel.coordinate.map(|k| rows.first + k),
+                    wheel: wheel.clone(),
+                });
+            }
+        }
+        wheels
+    }
+
+    /// What carries a wheel at x (m): the rail, or without a track the deck; rigid ground beside it. None
+    /// beyond the ends of the rail.
+    pub fn place(&self, x: f64) -> Option<Place> {
+        if let Some(track) = &self.track {
+            return track.place(x);
+        }
+        let terms = self.deck.as_ref().map_or_else(Vec::new, |deck| {
+            let shapes = deck.modes.shapes(x).into_iter();
+            shapes.map(|(k, phi)| (deck.first + k, phi)).collect()
+        });
+        Some(Place {
+            terms,
+            flexibility: 0.0,
+        })
+    }
+}
+
+impl TrackRows {
+    /// What carries a wheel at x: Hermite's shares of the nodes beside it, and the deflection of the element as
+    /// a beam with clamped ends, a³ b³ / (3 EI h³), which the shares can't follow.
+    pub fn place(&self, x: f64) -> Option<Place> {
+        let at = (x - self.start) / self.step;
+        let last = self.rail.len() - 1;
+        if !(-1e-9..=last as f64 + 1e-9).contains(&at) {
+            return None;
+        }
+        let element = (at.max(0.0) as usize).min(last - 1);
+        let s = (at - element as f64).clamp(0.0, 1.0);
+        let n = hermite(s, self.step, 0);
+        let (left, right) = (self.rail[element], self.rail[element + 1]);
+        let terms = [
+            (left, n[0]),
+            (left + 1, n[1]),
+            (right, n[2]),
+            (right + 1, n[3]),
+        ];
+        Some(Place {
+            terms: terms
+                .into_iter()
+                .filter(|(_, share)| *share != 0.0)
+                .collect(),
+            flexibility: (s * (1.0 - s) * self.step).powi(3) / (3.0 * self.rigidity),
+        })
+    }
+}
+
+impl Track {
+    /// What the deck carries as mass besides its own (kg/m).
+    fn mass_on_deck(&self) -> f64 {
+        match &self.support {
+            Support::Ballasted(ballast) => ballast.on_bridge.mass / self.spacing,
+            Support::Direct | Support::Slab(_) => 0.0,
+        }
+    }
+
+    /// The place of fastener k (m).
+    pub fn position(&self, fastener: usize) -> f64 {
+        self.start + fastener as f64 * self.spacing
+    }
+
+    fn assemble(&self, matrices: &mut Matrices, deck: Option<&DeckModes>) -> TrackRows {
+        let step = self.spacing / self.elements as f64;
+        let mut rows = TrackRows {
+            start: self.start,
+            step,
+            rigidity: self.rail.flexural_rigidity,
+            rail: Vec::new(),
+            sleepers: Vec::new(),
+            ballast: Vec::new(),
+            slabs: Vec::new(),
+            beds: Vec::new(),
+        };
+        let mut slab = SlabEnd::default();
+        for fastener in 0..self.fasteners {
+            let position = self.position(fastener);
+            let on_deck = deck.is_some_and(|deck| deck.carries(position));
+            let below = match &self.support {
+                Support::Direct => None,
+                Support::Ballasted(ballast) => {
+                    Some(ballast.assemble(matrices, &mut rows, on_deck, position))
+                }
+                Support::Slab(data) => {
+                    Some(slab.next(data, matrices, &mut rows, self, on_deck, position))
+                }
+            };
+            let rail = matrices.grow(2);
+            rows.rail.push(rail);
+            if below.is_none() && on_deck {
+                rows.beds.push(Bed {
+                    above: rail,
+                    position,
+                    stiffness: self.fastener.stiffness,
+                    damping: self.fastener.damping,
+                });
+            } else {
+                let elongation = [(rail, 1.0)]
+                    .into_iter()
+                    .chain(below.map(|below| (below, -1.0)));
+                let spring = Spring {
+                    elongation: elongation.collect(),
+                    stiffness: self.fastener.stiffness,
+                    damping: self.fastener.damping,
+                };
+                matrices.spring(0, &spring);
+            }
+            if fastener + 1 < self.fasteners {
+                for _ in 1..self.elements {
+                    rows.rail.push(matrices.grow(2));
+                }
+            }
+        }
+        if let (Some(last), Support::Slab(data)) = (slab.last, &self.support) {
+            overhang(last, data, self.spacing, matrices);
+        }
+        for pair in rows.rail.windows(2) {
+            let at = [pair[0], pair[0] + 1, pair[1], pair[1] + 1];
+            matrices.beam(
+                at,
+                self.rail.flexural_rigidity,
+                self.rail.mass_per_length,
+                step,
+            );
+        }
+        rows
+    }
+}
+
+impl Ballast {
+    /// Sleeper and what is below it; the sleeper's row.
+    fn assemble(
+        &self,
+        matrices: &mut Matrices,
+        rows: &mut TrackRows,
+        on_deck: bool,
+        position: f64,
+    ) -> usize {
+        let block = (!on_deck).then(|| matrices.grow(1));
+        let sleeper = matrices.grow(1);
+        matrices.mass(sleeper, self.sleeper_mass);
+        rows.sleepers.push(sleeper);
+        rows.ballast.push(block);
+        match block {
+            Some(block) => {
+                matrices.mass(block, self.ballast_mass);
+                for (elongation, spring) in [
+                    (vec![(block, 1.0)], self.subgrade),
+                    (vec![(sleeper, 1.0), (block, -1.0)], self.ballast),
+                ] {
+                    let spring = Spring {
+                        elongation,
+                        stiffness: spring.stiffness,
+                        damping: spring.damping,
+                    };
+                    matrices.spring(0, &spring);
+                }
+            }
+            None => rows.beds.push(Bed {
+                above: sleeper,
+                position,
+                stiffness: self.on_bridge.bed.stiffness,
+                damping: self.on_bridge.bed.damping,
+            }),
+        }
+        sleeper
+    }
+}
+
+/// The slab that is being laid.
+#[derive(Default)]
+struct SlabEnd {
+    last: Option<usize>,
+    fasteners: usize,
+    on_deck: bool,
+}
+
+impl SlabEnd {
+    /// The slab's node under the next fastener: a slab ends with its last fastener, and at an end of the bridge.
+    /// Half a bay overhangs at both ends: its mass and mortar count at the end nodes.
+    fn next(
+        &mut self,
+        slab: &Slab,
+        matrices: &mut Matrices,
+        rows: &mut TrackRows,
+        track: &Track,
+        on_deck: bool,
+        position: f64,
+    ) -> usize {
+        let row = matrices.grow(2);
+        let bay = track.spacing;
+        let begins = self.fasteners == slab.fasteners || self.on_deck != on_deck;
+        match self.last {
+            Some(last) if !begins => {
+                let at = [last, last + 1, row, row + 1];
+                matrices.beam(at, slab.flexural_rigidity, slab.mass_per_length, bay);
+                self.fasteners += 1;
+            }
+            last => {
+                if let Some(last) = last {
+                    overhang(last, slab, bay, matrices);
+                }
+                overhang(row, slab, bay, matrices);
+                self.fasteners = 1;
+            }
+        }
+        self.last = Some(row);
+        self.on_deck = on_deck;
+        rows.slabs.push(row);
+        let (stiffness, damping) = (bay * slab.mortar.stiffness, bay * slab.mortar.damping);
+        if on_deck {
+            rows.beds.push(Bed {
+                above: row,
+                position,
+                stiffness,
+                damping,
+            });
+        } else {
+            let spring = Spring {
+                elongation: vec![(row, 1.0)],
+                stiffness,
+                damping,
+            };
+            matrices.spring(0, &spring);
+        }
+        // The mortar of a bay also resists its turning, about the ground or the deck's chord.
+        let turn = bay * bay / 12.0;
+        let spring = Spring {
+            elongation: vec![(row + 1, 1.0)],
+            stiffness: stiffness * turn,
+            damping: damping * turn,
+        };
+        matrices.spring(0, &spring);
+        row
+    }
+}
+
+/// Half a bay of slab beyond its last node.
+fn overhang(node: usize, slab: &Slab, bay: f64, matrices: &mut Matrices) {
+    matrices.mass(node, 0.5 * bay * slab.mass_per_length);
+    matrices.mass(node + 1, bay.powi(3) / 24.0 * slab.mass_per_length);
+}
