@@ -1,4 +1,4 @@
-//! The irregularity of road or track: spectra, and random fields that have them.
+//! The irregularity of road or track: spectra, and random fields that have them; that of wheels.
 //!
 //! Spectra S(Ω) are two-sided over the wavenumber Ω (rad/m), in m³/rad:
 //!
@@ -27,6 +27,7 @@ mod sncf;
 mod spectral;
 mod synthesis;
 mod tabulated;
+mod wheel;
 mod window;
 
 pub use chinese_ballastless::ChineseBallastless;
@@ -43,6 +44,7 @@ pub use sncf::{Sncf, SncfQuality};
 pub use spectral::{Band, GaussianField, RandomPhaseField, SpectralRepresentation};
 pub use synthesis::{Grid, Method, Synthesis};
 pub use tabulated::{Tabulated, TabulatedError};
+pub use wheel::{WheelDefect, WheelIrregularity};
 pub use window::{Smoothed, Window};
 
 use std::f64::consts::PI;

@@ -2,6 +2,7 @@
 
 mod karhunen_loeve;
 mod spectra;
+mod wheel;
 mod window;
 
 use super::*;
