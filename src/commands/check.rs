@@ -8,6 +8,7 @@ use crate::cli;
 use crate::ensemble::LANES;
 use crate::files::recording::band_layout;
 use crate::integrate::Integrator;
+use crate::irregularity::Band;
 use crate::probability::distribution::Tail;
 use crate::scenario::{Precision, RandomParameters, Scenario, SimulationSpec, SpectrumSpec};
 use crate::system::{Chain, Crossing, largest_stable_step};
@@ -108,29 +109,36 @@ fn describe_source(
     let deviation = field.variance().sqrt();
     let (band, whole) = if in_time {
         let band = scenario.excitation()?.frequency;
-        ((f64::from(band.count), band.max), String::new())
+        let (min, count) = (0.0, band.count as usize);
+        let max = band.max;
+        (Some(Band { min, max, count }), None)
     } else {
         let spec = scenario.irregularity()?;
-        let whole = match &spec.spectrum {
-            Some(SpectrumSpec::SecondOrderFilter(filter)) => {
-                let deviation = filter.build().variance().sqrt();
-                format!(" (of the whole spectrum: {deviation:.6e} m)")
-            }
-            Some(SpectrumSpec::Table(_)) | None => String::new(),
-        };
-        let band = spec.wavenumber.map_or((1.0, f64::MIN_POSITIVE), |band| {
-            (f64::from(band.count), band.max)
-        });
-        (band, whole)
+        let smoothed = spec.smoothing.is_some();
+        let spectrum = spec.spectrum.as_ref().filter(|_| !smoothed);
+        (
+            spec.band(),
+            spectrum.and_then(SpectrumSpec::whole_deviation),
+        )
     };
+    let whole = whole.map_or(String::new(), |deviation| {
+        format!(" (of the whole spectrum: {deviation:.6e} m)")
+    });
     let measure = if in_time { "m/s2 or N" } else { "m" };
     write(format!(
         "  standard deviation {deviation:.6e} {measure}{whole}"
     ));
-    let period = 2.0 * std::f64::consts::PI * band.0 / band.1;
+    let period = band.map_or(f64::INFINITY, |band| {
+        2.0 * std::f64::consts::PI / band.step()
+    });
     if end - grid.start > 0.5 * period {
+        let up_to = if band.is_some_and(|band| band.min > 0.0) {
+            "phases"
+        } else {
+            "the sign"
+        };
         write(format!(
-            "  note: it repeats after {period:.1} {unit} (up to the sign): take more of the band"
+            "  note: it repeats after {period:.1} {unit} (up to {up_to}): take more of the band"
         ));
     }
     Ok(())

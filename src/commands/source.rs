@@ -4,12 +4,12 @@ use super::{Context, excitation};
 use crate::Result;
 use crate::files::tabulated;
 use crate::irregularity::{
-    Deterministic, Grid, Irregularity, PowerSpectralDensity, RandomField, SpectralRepresentation,
-    Tabulated,
+    Band, Deterministic, Grid, Irregularity, PowerSpectralDensity, RandomField, Smoothed,
+    SpectralRepresentation, Tabulated, TrackComponent,
 };
 use crate::scenario::{
-    DeterministicSpec, IrregularitySpec, PointsSpec, ProfileSpec, Scenario, Sided, SpectrumSpec,
-    SpectrumTableSpec, WavenumberUnit,
+    DeterministicSpec, IrregularitySpec, PointsSpec, ProfileSpec, Scenario, Sided, SpectrumSource,
+    SpectrumSpec, SpectrumTableSpec, WavenumberUnit,
 };
 
 /// What the points are given over positions or times.
@@ -59,8 +59,18 @@ impl Source {
             Some(deterministic) => read_deterministic(context, scenario, deterministic, grid)?,
             None => Deterministic::Smooth,
         };
+        let deterministic = match &spec.smoothing {
+            Some(smoothing) => deterministic.smoothed(&smoothing.build(), grid),
+            None => deterministic,
+        };
+        let component = spec.spectrum.as_ref().map(SpectrumSpec::component);
         Ok(Source {
-            component: Some("vertical"),
+            component: Some(match component.unwrap_or(TrackComponent::Vertical) {
+                TrackComponent::Vertical => "vertical",
+                TrackComponent::Alignment => "alignment",
+                TrackComponent::CrossLevel => "cross_level",
+                TrackComponent::Gauge => "gauge",
+            }),
             irregularity: Irregularity::new(grid, &deterministic, field),
         })
     }
@@ -73,37 +83,52 @@ fn read_field(
     spec: &IrregularitySpec,
     grid: Grid,
 ) -> Result<Option<Box<dyn RandomField>>> {
-    let (Some(spectrum), Some(band)) = (&spec.spectrum, &spec.wavenumber) else {
+    let Some(target) = read_target(context, scenario, spec)? else {
         return Ok(None);
     };
-    let spectrum = read_spectrum(context, scenario, spectrum, band.max)?;
-    let spectrum = SpectralRepresentation::new(spectrum.as_ref(), band.max, band.count as usize);
+    let spectrum = SpectralRepresentation::on(target.spectrum.as_ref(), target.band);
     let terms = spec.terms.map(|terms| terms as usize);
     scenario
         .random_field("irregularity", spec.field, terms, spectrum, grid)
         .map(Some)
 }
 
-/// The spectrum of a scenario, its table read where it has one.
-pub(super) fn read_spectrum(
+/// The spectrum that the irregularities are made for, zero outside its band.
+pub(super) struct Target {
+    pub spectrum: Box<dyn PowerSpectralDensity>,
+    pub band: Band,
+}
+
+/// The spectrum of a scenario where it has one: its table read where it is one, smoothed where that is asked for.
+pub(super) fn read_target(
     context: &Context,
     scenario: &Scenario,
-    spec: &SpectrumSpec,
-    highest: f64,
-) -> Result<Box<dyn PowerSpectralDensity>> {
-    match spec {
-        SpectrumSpec::SecondOrderFilter(filter) => Ok(Box::new(filter.build())),
-        SpectrumSpec::Table(table) => {
+    spec: &IrregularitySpec,
+) -> Result<Option<Target>> {
+    let (Some(spectrum), Some(band)) = (&spec.spectrum, spec.band()) else {
+        return Ok(None);
+    };
+    let spectrum = match spectrum.source() {
+        SpectrumSource::Model(model) => model,
+        SpectrumSource::Table(table) => {
             let spectrum = read_table(scenario, table)?;
-            let (least, largest) = spectrum.band();
+            let ((least, largest), highest) = (spectrum.band(), band.max);
             if highest > largest * (1.0 + 1e-9) {
                 context.note(format!(
                     "the spectrum's table covers {least:.6} to {largest:.6} rad/m; beyond it, up to {highest} rad/m, the density is zero"
                 ));
             }
-            Ok(Box::new(spectrum))
+            Box::new(spectrum)
         }
-    }
+    };
+    let spectrum = match &spec.smoothing {
+        Some(smoothing) => Box::new(Smoothed {
+            spectrum,
+            window: smoothing.build(),
+        }),
+        None => spectrum,
+    };
+    Ok(Some(Target { spectrum, band }))
 }
 
 fn read_table(scenario: &Scenario, spec: &SpectrumTableSpec) -> Result<Tabulated> {

@@ -1,5 +1,6 @@
 //! A deterministic part of the irregularity, alone or under the random field.
 
+use super::{Grid, Window};
 use std::f64::consts::PI;
 
 /// The same at every point.
@@ -47,6 +48,33 @@ impl Deterministic {
                 let (x0, x1) = (positions[above - 1], positions[above]);
                 let share = (x - x0) / (x1 - x0);
                 heights[above - 1] * (1.0 - share) + heights[above] * share
+            }
+        }
+    }
+
+    /// Its mean over a window at each position: exact on the grid, and straight between the grid's positions where it
+    /// was a profile.
+    pub fn smoothed(&self, window: &Window, grid: Grid) -> Deterministic {
+        match self {
+            Deterministic::Smooth => Deterministic::Smooth,
+            Deterministic::Sine {
+                amplitude,
+                wavelength,
+                phase,
+            } => Deterministic::Sine {
+                amplitude: amplitude * window.transfer(2.0 * PI / wavelength),
+                wavelength: *wavelength,
+                phase: *phase,
+            },
+            Deterministic::Profile { positions, heights } => {
+                let at: Vec<f64> = (0..grid.count).map(|j| grid.position(j)).collect();
+                Deterministic::Profile {
+                    heights: at
+                        .iter()
+                        .map(|x| window.mean(positions, heights, *x))
+                        .collect(),
+                    positions: at,
+                }
             }
         }
     }

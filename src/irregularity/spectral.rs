@@ -1,6 +1,6 @@
 //! The spectral representation of a homogeneous random field.
 //!
-//! With Ω_k = (k − 1/2) ΔΩ, k = 1 ... K, and a_k = √(2 S(Ω_k) ΔΩ):
+//! With Ω_k = Ω_min + (k − 1/2) ΔΩ, k = 1 ... K, on a band from Ω_min (mostly 0) on, and a_k = √(2 S(Ω_k) ΔΩ):
 //!
 //! ```text
 //! gaussian:      r(x) = Σ a_k (X_k cos Ω_k x + Y_k sin Ω_k x),     X_k, Y_k standard normal,
@@ -15,9 +15,34 @@ use super::{Grid, PowerSpectralDensity, RandomField, Synthesis};
 use crate::probability;
 use std::f64::consts::{PI, SQRT_2};
 
+/// The wavenumbers of a spectral representation, each in the middle of its share of the band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Band {
+    /// Ω_min (rad/m).
+    pub min: f64,
+    /// Ω_max (rad/m).
+    pub max: f64,
+    /// K.
+    pub count: usize,
+}
+
+impl Band {
+    /// ΔΩ (rad/m).
+    pub fn step(&self) -> f64 {
+        (self.max - self.min) / self.count as f64
+    }
+
+    /// Whether a wavenumber (rad/m) lies in it.
+    pub fn holds(&self, wavenumber: f64) -> bool {
+        (self.min..=self.max).contains(&wavenumber)
+    }
+}
+
 /// A field by its wavenumbers and amplitudes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpectralRepresentation {
+    /// Ω_min (rad/m).
+    least: f64,
     /// ΔΩ (rad/m).
     step: f64,
     /// a_k (m).
@@ -27,30 +52,38 @@ pub struct SpectralRepresentation {
 }
 
 impl SpectralRepresentation {
-    /// `count` wavenumbers up to `max` (rad/m), each in the middle of its share of the band.
+    /// `count` wavenumbers from 0 up to `max` (rad/m), each in the middle of its share of the band.
     pub fn new(spectrum: &dyn PowerSpectralDensity, max: f64, count: usize) -> Self {
-        let step = max / count as f64;
-        let amplitudes: Vec<f64> = (0..count)
-            .map(|k| (2.0 * spectrum.density((k as f64 + 0.5) * step) * step).sqrt())
-            .collect();
-        let mut order: Vec<usize> = (0..count).collect();
-        // Stable: equal amplitudes stay in the order of their wavenumbers.
-        order.sort_by(|a, b| amplitudes[*b].total_cmp(&amplitudes[*a]));
-        SpectralRepresentation {
-            step,
-            amplitudes,
-            order,
-        }
+        let min = 0.0;
+        Self::on(spectrum, Band { min, max, count })
     }
 
-    /// ΔΩ (rad/m); the first wavenumber is half of it.
+    /// The wavenumbers of a band.
+    pub fn on(spectrum: &dyn PowerSpectralDensity, band: Band) -> Self {
+        let mut field = SpectralRepresentation {
+            least: band.min,
+            step: band.step(),
+            amplitudes: Vec::new(),
+            order: (0..band.count).collect(),
+        };
+        let amplitude = |k| (2.0 * spectrum.density(field.wavenumber(k)) * field.step).sqrt();
+        let amplitudes: Vec<f64> = (0..band.count).map(amplitude).collect();
+        // Stable: equal amplitudes stay in the order of their wavenumbers.
+        field
+            .order
+            .sort_by(|a, b| amplitudes[*b].total_cmp(&amplitudes[*a]));
+        field.amplitudes = amplitudes;
+        field
+    }
+
+    /// ΔΩ (rad/m); the first wavenumber lies half of it above the band's lower end.
     pub fn step(&self) -> f64 {
         self.step
     }
 
     /// Ω_k (rad/m) of an index from 0.
     pub fn wavenumber(&self, index: usize) -> f64 {
-        (index as f64 + 0.5) * self.step
+        self.least + (index as f64 + 0.5) * self.step
     }
 
     /// a_k (m), by wavenumber.

@@ -198,7 +198,7 @@ impl Chirp {
             .collect();
         let after = (0..grid.count)
             .map(|j| {
-                let offset = 0.5 * field.step() * j as f64 * grid.spacing;
+                let offset = field.wavenumber(0) * j as f64 * grid.spacing;
                 Complex64::from_polar(1.0, offset + chirp(j))
             })
             .collect();

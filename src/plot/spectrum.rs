@@ -47,12 +47,12 @@ impl Spectrum<'_> {
 
         let x = Axis::logarithmic("Wavenumber, Ω (rad/m)", first, last);
         let estimates = shown.iter().map(|&m| self.periodogram.density[m]);
-        let (low, high) = range(
-            target
-                .iter()
-                .map(|p| p.1)
-                .chain(estimates.filter(|&s| s > 0.0)),
-        );
+        let estimates: Vec<f64> = estimates.filter(|&s| s > 0.0).collect();
+        // Where the target is next to zero, as at the zeros of a mean, it needs no room.
+        let least = estimates.iter().copied().fold(f64::INFINITY, f64::min);
+        let seen = |s: &f64| least.is_infinite() || *s >= 0.01 * least;
+        let wanted = target.iter().map(|p| p.1).filter(seen);
+        let (low, high) = range(wanted.chain(estimates.iter().copied()));
         let label = "Two-sided power spectral density, S(Ω) (m^{3}/rad)";
         let y = Axis::logarithmic(label, low / 1.6, high * 1.6);
 

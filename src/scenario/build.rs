@@ -1,15 +1,15 @@
 //! From specs, as written, to the built values that the physics sees.
 
 use super::{
-    BridgeSpec, CellKernelKind, FieldKind, FilterForm, GridKind, InitialState, IntegratorKind,
-    IrregularitySpec, LimitKind, PointsSpec, QuarterCarSpec, RuleKind, Scenario,
-    SecondOrderFilterSpec, SimulationSpec, SmoothingSpec, VehicleSpec, WidthRuleSpec,
+    BridgeSpec, CellKernelKind, FieldKind, GridKind, InitialState, IntegratorKind,
+    IrregularitySpec, LimitKind, PointsSpec, QuarterCarSpec, RuleKind, Scenario, SimulationSpec,
+    SmoothingSpec, VehicleSpec, WidthRuleSpec,
 };
 use crate::density::{self, CellKernel, Smoothing, WidthRule};
 use crate::integrate::Integrator;
 use crate::irregularity::{
-    self, GaussianField, Grid, KarhunenLoeve, KarhunenLoeveError, RandomField, RandomPhaseField,
-    SecondOrderFilter, SpectralRepresentation,
+    GaussianField, Grid, KarhunenLoeve, KarhunenLoeveError, RandomField, RandomPhaseField,
+    SpectralRepresentation,
 };
 use crate::probability::{
     GfDiscrepancy, LatinHypercube, LatinizedPartiallyStratified, MidpointGrid, MomentMatched,
@@ -69,20 +69,6 @@ impl PointsSpec {
             RuleKind::GfDiscrepancy => Box::new(GfDiscrepancy::new(count, dimensions)?),
             RuleKind::Grid => Box::new(MidpointGrid::new(count, dimensions)?),
         })
-    }
-}
-
-impl SecondOrderFilterSpec {
-    pub fn build(&self) -> SecondOrderFilter {
-        SecondOrderFilter {
-            alpha: self.alpha,
-            beta: self.beta,
-            gamma: self.gamma,
-            form: match self.form {
-                FilterForm::Corrected => irregularity::FilterForm::Corrected,
-                FilterForm::Printed => irregularity::FilterForm::Printed,
-            },
-        }
     }
 }
 

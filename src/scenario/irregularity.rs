@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Scenario, Table};
+use super::{Scenario, SpectrumSpec, Table};
+use crate::irregularity::{Band, Window};
 use crate::{BadInput, Result};
 
-/// The vertical irregularity of the road or track: random, deterministic, or their sum.
+/// The irregularity of the road or track: random, deterministic, or their sum.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct IrregularitySpec {
@@ -16,6 +17,10 @@ pub struct IrregularitySpec {
     pub spectrum: Option<SpectrumSpec>,
     /// Wavenumbers of the spectral representation.
     pub wavenumber: Option<WavenumberSpec>,
+    /// The same by their wavelengths, in place of `wavenumber`.
+    pub wavelength: Option<WavelengthSpec>,
+    /// Mean over a window or the contact patch, of the random field and of the deterministic profile.
+    pub smoothing: Option<WindowSpec>,
     /// How the random field is represented.
     #[serde(default)]
     pub field: FieldKind,
@@ -35,96 +40,63 @@ pub struct IrregularitySpec {
     pub spacing: f64,
 }
 
-/// A power spectral density of irregularity.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum SpectrumSpec {
-    /// White noise through a second-order filter: two-sided, over the angular wavenumber.
-    SecondOrderFilter(SecondOrderFilterSpec),
-    /// A table of wavenumbers and densities in a CSV or Parquet file.
-    Table(SpectrumTableSpec),
-}
-
-/// S(k) = (4 gamma alpha beta k0^2 / pi) / ((k0^2 - k^2)^2 + 4 alpha^2 k^2), k0^2 = alpha^2 + beta^2. Its variance is
-/// 2 beta gamma.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SecondOrderFilterSpec {
-    /// Decay rate of the autocorrelation (rad/m).
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub alpha: f64,
-    /// Wavenumber of the autocorrelation (rad/m).
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub beta: f64,
-    /// Roughness coefficient (m3/rad).
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub gamma: f64,
-    /// Which denominator.
-    #[serde(default)]
-    pub form: FilterForm,
-}
-
-/// The denominator of the second-order filter.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum FilterForm {
-    /// (k0^2 - k^2)^2 + 4 alpha^2 k^2: the filter's own.
-    #[default]
-    Corrected,
-    /// (k0^2 - k^2)^2 + 4 alpha^2 beta^2: as the paper prints it.
-    Printed,
-}
-
-/// A tabulated power spectral density.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SpectrumTableSpec {
-    /// CSV or Parquet file, relative to the scenario's folder.
-    #[schemars(length(min = 1))]
-    pub file: PathBuf,
-    /// Whether the density counts positive wavenumbers only (`one`) or negative ones as well (`two`).
-    pub sided: Sided,
-    /// Unit of the wavenumbers; the densities are in m2 per this unit.
-    pub unit: WavenumberUnit,
-    /// Column of the wavenumbers; by default the first one.
-    #[schemars(length(min = 1))]
-    pub wavenumber_column: Option<String>,
-    /// Column of the densities; by default the second one.
-    #[schemars(length(min = 1))]
-    pub density_column: Option<String>,
-}
-
-/// Over which wavenumbers a density integrates to the variance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Sided {
-    /// The density over positive wavenumbers integrates to the variance.
-    One,
-    /// The density over negative and positive wavenumbers integrates to the variance.
-    Two,
-}
-
-/// The unit of a tabulated wavenumber.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum WavenumberUnit {
-    /// Angular wavenumber.
-    #[serde(rename = "rad/m")]
-    RadianPerMetre,
-    /// Wavenumber, one over the wavelength.
-    #[serde(rename = "cycles/m")]
-    CyclePerMetre,
-}
-
 /// The wavenumbers of the spectral representation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WavenumberSpec {
+    /// Smallest angular wavenumber (rad/m).
+    #[serde(default)]
+    #[schemars(range(min = 0))]
+    pub min: f64,
     /// Largest angular wavenumber (rad/m).
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub max: f64,
-    /// Number of wavenumbers between 0 and the largest.
+    /// Number of wavenumbers between the smallest and the largest.
     #[schemars(range(min = 1))]
     pub count: u32,
+}
+
+/// The wavenumbers of the spectral representation by their wavelengths, 2 pi over the wavenumber.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WavelengthSpec {
+    /// Smallest wavelength (m).
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub min: f64,
+    /// Largest wavelength (m). By default infinite.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub max: Option<f64>,
+    /// Number of wavenumbers between those of the largest and the smallest wavelength, evenly spaced.
+    #[schemars(range(min = 1))]
+    pub count: u32,
+}
+
+/// The mean over positions that a wheel feels in place of the height at one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum WindowSpec {
+    /// Equal weights over a length: transfer function sin(z) / z, z = k length / 2, of waves of wavenumber k.
+    MovingAverage(MovingAverageSpec),
+    /// Hertz's elliptic pressure over the contact patch: transfer function 2 J1(z) / z, z = k half_length.
+    ContactPatch(ContactPatchSpec),
+}
+
+/// Equal weights over a length.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MovingAverageSpec {
+    /// Length of the window, half of it on each side (m).
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub length: f64,
+}
+
+/// Weights sqrt(1 - (x / half_length)^2).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContactPatchSpec {
+    /// Half of the length of the contact patch (m).
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub half_length: f64,
 }
 
 /// How the spectral representation is made random.
@@ -204,26 +176,14 @@ impl Table for IrregularitySpec {
     const NAME: &'static str = "irregularity";
 
     fn check(&self, scenario: &Scenario) -> Result<(), BadInput> {
-        match (&self.spectrum, &self.wavenumber, &self.deterministic) {
-            (None, None, None) => {
-                return Err(scenario.bad(
-                    "irregularity",
-                    "a spectrum, a deterministic profile, or both",
-                    "neither",
-                ));
-            }
-            (None, Some(_), _) => {
-                return Err(scenario
-                    .bad(
-                        "irregularity.wavenumber",
-                        "no such key without a spectrum",
-                        "no spectrum",
-                    )
-                    .remedy("leave it out or add irregularity.spectrum"));
-            }
-            (Some(_), None, _) => return Err(scenario.missing("irregularity.wavenumber")),
-            (None, None, Some(_)) | (Some(_), Some(_), _) => {}
+        if self.spectrum.is_none() && self.deterministic.is_none() {
+            return Err(scenario.bad(
+                "irregularity",
+                "a spectrum, a deterministic profile, or both",
+                "neither",
+            ));
         }
+        self.check_band(scenario)?;
         if self.terms.is_some() && self.field != FieldKind::KarhunenLoeve {
             return Err(scenario
                 .bad(
@@ -241,6 +201,110 @@ impl Table for IrregularitySpec {
             ));
         }
         Ok(())
+    }
+}
+
+impl IrregularitySpec {
+    /// The band of the spectral representation, where there is one.
+    pub fn band(&self) -> Option<Band> {
+        let tau = 2.0 * std::f64::consts::PI;
+        let by_number = self.wavenumber.as_ref().map(|band| Band {
+            min: band.min,
+            max: band.max,
+            count: band.count as usize,
+        });
+        by_number.or_else(|| {
+            self.wavelength.as_ref().map(|band| Band {
+                min: band.max.map_or(0.0, |longest| tau / longest),
+                max: tau / band.min,
+                count: band.count as usize,
+            })
+        })
+    }
+
+    /// The band belongs to a spectrum, is given once, is not empty, and has a finite density in it.
+    fn check_band(&self, scenario: &Scenario) -> Result<(), BadInput> {
+        let (key, min, max, unit) = match (&self.wavenumber, &self.wavelength) {
+            (None, None) if self.spectrum.is_none() => return Ok(()),
+            (None, None) => {
+                let error = scenario.missing("irregularity.wavenumber");
+                return Err(error.remedy("give it, or irregularity.wavelength"));
+            }
+            (Some(_), Some(_)) => {
+                let expected = "no such key beside irregularity.wavenumber";
+                let error = scenario.bad("irregularity.wavelength", expected, "both");
+                return Err(error.remedy("give the band once"));
+            }
+            (Some(waves), None) => ("irregularity.wavenumber", waves.min, waves.max, "rad/m"),
+            (None, Some(waves)) => {
+                let max = waves.max.unwrap_or(f64::INFINITY);
+                ("irregularity.wavelength", waves.min, max, "m")
+            }
+        };
+        let Some(spectrum) = &self.spectrum else {
+            return Err(scenario
+                .bad(key, "no such key without a spectrum", "no spectrum")
+                .remedy("leave it out or add irregularity.spectrum"));
+        };
+        if max <= min {
+            let expected = format!("above {key}.min = {min:?} ({unit})");
+            return Err(scenario.bad(&format!("{key}.max"), expected, format!("{max:?}")));
+        }
+        spectrum.check(scenario)?;
+        self.check_singularity(scenario, spectrum)
+    }
+
+    /// The band begins above the wavenumber at which the density is infinite.
+    fn check_singularity(
+        &self,
+        scenario: &Scenario,
+        spectrum: &SpectrumSpec,
+    ) -> Result<(), BadInput> {
+        let least = self.band().map_or(0.0, |band| band.min);
+        let Some(pole) = spectrum.singularity().filter(|pole| least <= *pole) else {
+            return Ok(());
+        };
+        let infinite = format!("where the density of {:?} is infinite", spectrum.kind());
+        if let Some(waves) = &self.wavelength {
+            let (expected, found) = match waves.max {
+                Some(max) => {
+                    let longest = 2.0 * std::f64::consts::PI / pole;
+                    (
+                        format!("below {longest:.2} (m), {infinite}"),
+                        format!("{max:?}"),
+                    )
+                }
+                None => (
+                    format!("a largest wavelength (m): the wavenumber 0 is {infinite}"),
+                    "none".to_owned(),
+                ),
+            };
+            return Err(scenario.bad("irregularity.wavelength.max", expected, found));
+        }
+        let limit = if pole > 0.0 {
+            format!("{pole:.5}")
+        } else {
+            "0".to_owned()
+        };
+        let expected = format!("above {limit} (rad/m), {infinite}");
+        Err(scenario.bad(
+            "irregularity.wavenumber.min",
+            expected,
+            format!("{least:?}"),
+        ))
+    }
+}
+
+impl WindowSpec {
+    pub fn build(&self) -> Window {
+        match self {
+            WindowSpec::MovingAverage(spec) => Window::MovingAverage {
+                length: spec.length,
+            },
+            WindowSpec::ContactPatch(spec) => Window::ContactPatch {
+                half_length: spec.half_length,
+            },
+        }
     }
 }
 

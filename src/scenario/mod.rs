@@ -34,6 +34,7 @@ mod reliability;
 mod schema;
 mod shape;
 mod simulation;
+mod spectrum;
 mod study;
 mod suggestion;
 #[cfg(test)]
@@ -65,8 +66,8 @@ pub use excitation::{
     ModulationSpec, WhiteSpec,
 };
 pub use irregularity::{
-    DeterministicSpec, FieldKind, FilterForm, IrregularitySpec, ProfileSpec, SecondOrderFilterSpec,
-    Sided, SineSpec, SpectrumSpec, SpectrumTableSpec, WavenumberSpec, WavenumberUnit,
+    ContactPatchSpec, DeterministicSpec, FieldKind, IrregularitySpec, MovingAverageSpec,
+    ProfileSpec, SineSpec, WavelengthSpec, WavenumberSpec, WindowSpec,
 };
 pub use oscillator::{
     BoucWenSpec, InterpolationKind, LoadKind, OscillatorSpec, PowerLawSpec, RayleighSpec,
@@ -81,6 +82,12 @@ pub use random::{
 pub use reliability::{LimitKind, LimitSpec, ReliabilitySpec};
 pub use schema::{ScenarioSpec, is_key, json_schema};
 pub use simulation::{Compression, InitialState, IntegratorKind, Precision, SimulationSpec};
+pub use spectrum::{
+    ChineseBallastlessSpec, ChineseMainLineSpec, DisturbanceKind, FilterForm, FraFrybaSpec,
+    FraSpec, GermanSpec, Iso8608Spec, MainLineKind, RoadClassKind, RoadLevelKind,
+    SecondOrderFilterSpec, Sided, SncfQualityKind, SncfSpec, SpectrumSource, SpectrumSpec,
+    SpectrumTableSpec, TrackComponentKind, WavenumberUnit,
+};
 pub use study::{DensityVariantSpec, PointsVariantSpec, ReferenceKind, SeedsAboveSpec, StudySpec};
 pub use suggestion::nearest;
 pub use varied::VARIED_KEYS;

@@ -3,7 +3,8 @@
 use super::{Axis, Image, page};
 use crate::cli;
 use crate::commands::responses::check_representative;
-use crate::commands::{Context, bad_file, source};
+use crate::commands::source::{self, Target};
+use crate::commands::{Context, bad_file};
 use crate::files::points::{PointsReader, ReadHeader, component_unit, is_in_time};
 use crate::plot::{IrregularitySamples, Periodogram, Spectrum};
 use crate::scenario::Scenario;
@@ -124,10 +125,9 @@ pub(super) fn periodogram(context: &Context, args: &cli::Plot) -> Result<Image> 
         return Err(no_target("an excitation in time").into());
     }
     let spec = scenario.irregularity()?;
-    let (Some(spectrum), Some(band)) = (&spec.spectrum, &spec.wavenumber) else {
+    let Some(Target { spectrum, band }) = source::read_target(context, &scenario, &spec)? else {
         return Err(no_target("a deterministic irregularity").into());
     };
-    let spectrum = source::read_spectrum(context, &scenario, spectrum, band.max)?;
     let kept = rows(args, &reader, AVERAGED)?;
     let samples: Vec<&[f64]> = kept.iter().map(|(_, row)| row.as_slice()).collect();
     let weights: Vec<f64> = kept
@@ -135,7 +135,7 @@ pub(super) fn periodogram(context: &Context, args: &cli::Plot) -> Result<Image> 
         .map(|(point, _)| header.probability[*point as usize])
         .collect();
     let target = |wavenumber: f64| {
-        if wavenumber <= band.max {
+        if band.holds(wavenumber) {
             spectrum.density(wavenumber)
         } else {
             0.0
@@ -150,11 +150,10 @@ pub(super) fn periodogram(context: &Context, args: &cli::Plot) -> Result<Image> 
             header.count
         )],
     );
-    let step = band.max / f64::from(band.count);
     Spectrum {
         periodogram: &Periodogram::estimate(&samples, &weights, header.position_step)?,
         target: &target,
-        wavenumbers: (0.5 * step, band.max),
+        wavenumbers: (band.min + 0.5 * band.step(), band.max),
     }
     .draw(&page)
 }

@@ -7,6 +7,7 @@ mod oscillator;
 mod overrides;
 mod random;
 mod schema;
+mod spectrum;
 
 fn repository() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -167,6 +168,38 @@ const KINDS: [&str; 5] = [
     r#"exact.case={ kind = "duffing", natural_frequency = 2, damping_ratio = 0.05, cubic = 10, intensity = 0.01 }"#,
     "irregularity.field=karhunen-loeve",
     "irregularity.terms=50",
+];
+
+/// Overrides of `FULL` to spectra, bands and windows that it has not.
+const TRACKS: [&[&str]; 8] = [
+    &[
+        r#"irregularity.spectrum={ kind = "iso-8608", class = "C", level = "upper-limit", waviness = 2.1 }"#,
+        "irregularity.wavenumber=",
+        "irregularity.wavelength={ min = 0.5, max = 90, count = 256 }",
+        r#"irregularity.smoothing={ kind = "moving-average", length = 0.2 }"#,
+    ],
+    &[
+        r#"irregularity.spectrum={ kind = "german", disturbance = "low", component = "cross-level" }"#,
+        r#"irregularity.smoothing={ kind = "contact-patch", half_length = 0.006 }"#,
+    ],
+    &[r#"irregularity.spectrum={ kind = "erri-b176", disturbance = "high" }"#],
+    &[r#"irregularity.spectrum={ kind = "sncf", quality = "good" }"#],
+    &[
+        r#"irregularity.spectrum={ kind = "fra", class = 6, component = "alignment" }"#,
+        "irregularity.wavenumber.min=0.02",
+    ],
+    &[
+        r#"irregularity.spectrum={ kind = "fra-fryba", class = 1 }"#,
+        "irregularity.wavenumber.min=0.02",
+    ],
+    &[
+        r#"irregularity.spectrum={ kind = "chinese-ballastless", component = "gauge", percentile = 90 }"#,
+        "irregularity.wavenumber.min=0.02",
+    ],
+    &[
+        r#"irregularity.spectrum={ kind = "chinese-main-line", set = "welded-right-alignment" }"#,
+        "irregularity.wavenumber.min=0.15",
+    ],
 ];
 
 #[test]

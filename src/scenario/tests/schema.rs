@@ -59,6 +59,7 @@ fn is_tag(key: &str) -> bool {
         ".excitation.modulation.kind",
         ".irregularity.spectrum.kind",
         ".irregularity.deterministic.kind",
+        ".irregularity.smoothing.kind",
         ".density.smoothing.rule",
         ".random.distribution.kind",
         ".exact.case.kind",
@@ -91,7 +92,10 @@ fn the_specs_and_the_schema_have_the_same_keys() {
             r#"random.0.distribution={ kind = "gamma", mean = 2.6e9, coefficient_of_variation = 0.1 }"#,
         ]),
         kinds(&[r#"density.smoothing={ rule = "cell-image" }"#]),
-    ] {
+    ]
+    .into_iter()
+    .chain(TRACKS.iter().map(|track| kinds(track)))
+    {
         let specs = serde_json::to_value(scenario.check_all().unwrap()).unwrap();
         keys("", &specs, &mut in_specs);
     }
@@ -130,6 +134,7 @@ fn every_key_is_described_and_every_number_has_its_unit() {
         ".density.smoothing.width",
         ".exact.case.damping_ratio",
         ".irregularity.deterministic.scale",
+        ".irregularity.spectrum.waviness",
         ".reliability.confidence",
         ".reliability.limit.threshold",
         ".reliability.smoothing.factor",
@@ -198,6 +203,12 @@ fn every_choice_is_one_that_serde_knows() {
                 ".irregularity.spectrum.form" => read::<FilterForm>(json),
                 ".irregularity.spectrum.sided" => read::<Sided>(json),
                 ".irregularity.spectrum.unit" => read::<WavenumberUnit>(json),
+                ".irregularity.spectrum.class" => read::<RoadClassKind>(json),
+                ".irregularity.spectrum.level" => read::<RoadLevelKind>(json),
+                ".irregularity.spectrum.disturbance" => read::<DisturbanceKind>(json),
+                ".irregularity.spectrum.component" => read::<TrackComponentKind>(json),
+                ".irregularity.spectrum.quality" => read::<SncfQualityKind>(json),
+                ".irregularity.spectrum.set" => read::<MainLineKind>(json),
                 ".simulation.integrator" => read::<IntegratorKind>(json),
                 ".simulation.initial_state" => read::<InitialState>(json),
                 ".simulation.precision" => read::<Precision>(json),
@@ -216,5 +227,5 @@ fn every_choice_is_one_that_serde_knows() {
             }
         }
     }
-    assert_eq!(count, 64);
+    assert_eq!(count, 106);
 }
