@@ -10,7 +10,9 @@ use crate::files::recording::{
 };
 use crate::files::{Kind, OutputFile, Provenance, Weights};
 use crate::quantity::Quantity;
-use crate::scenario::{self, Compression, Precision, Scenario, SimulationSpec, VehicleSpec};
+use crate::scenario::{
+    self, Compression, ContactSpec, Precision, Scenario, SimulationSpec, VehicleSpec,
+};
 use crate::{BadInput, Error, Result, interrupt, memory};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -61,14 +63,24 @@ fn check_harmonics(args: &cli::Simulate, scenario: &Scenario, reader: &PointsRea
         Weights::Assigned | Weights::Importance => return Ok(()),
     }
     let file = args.points.display();
-    let VehicleSpec::QuarterCar(car) = scenario.vehicle()?;
-    if let Some(key) = car.nonlinear_key() {
-        let expected =
-            format!("a linear system: {file} holds the harmonics of a pseudo-excitation");
-        return Err(scenario
-            .bad(key, expected, "a nonlinear suspension")
-            .remedy("leave the key out, or excite without --pseudo-excitation")
-            .into());
+    let expected = format!("a linear system: {file} holds the harmonics of a pseudo-excitation");
+    let nonlinear = match scenario.vehicle()? {
+        VehicleSpec::QuarterCar(car) => car.nonlinear_key().map(|key| {
+            scenario
+                .bad(key, expected, "a nonlinear suspension")
+                .remedy("leave the key out, or excite without --pseudo-excitation")
+        }),
+        VehicleSpec::Train(_) | VehicleSpec::LoadModel(_) => match scenario.contact()? {
+            Some(ContactSpec::Hertz(_)) => Some(
+                scenario
+                    .bad("contact.kind", expected, "\"hertz\"")
+                    .remedy("take the contact \"linear\", or excite without --pseudo-excitation"),
+            ),
+            Some(ContactSpec::Linear(_) | ContactSpec::Rigid) | None => None,
+        },
+    };
+    if let Some(error) = nonlinear {
+        return Err(error.into());
     }
     let parameter = header
         .parameters

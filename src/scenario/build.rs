@@ -3,7 +3,7 @@
 use super::{
     BridgeSpec, CellKernelKind, FieldKind, GridKind, InitialState, IntegratorKind,
     IrregularitySpec, LimitKind, PointsSpec, QuarterCarSpec, RuleKind, Scenario, SimulationSpec,
-    SmoothingSpec, VehicleSpec, WidthRuleSpec,
+    SmoothingSpec, WidthRuleSpec,
 };
 use crate::density::{self, CellKernel, Smoothing, WidthRule};
 use crate::integrate::Integrator;
@@ -17,7 +17,7 @@ use crate::probability::{
 };
 use crate::quantity::{BridgeResponse, Quantity};
 use crate::reliability::Side;
-use crate::system::{self, Beam, BumpStop, Crossing, QuarterCar, Section};
+use crate::system::{self, Beam, BumpStop, Crossing, QuarterCar};
 use crate::{BadInput, Result};
 
 /// Positions of an irregularity, at most: rows of more would not fit in memory by the thousand.
@@ -75,20 +75,13 @@ impl PointsSpec {
 impl BridgeSpec {
     pub fn build(&self) -> Beam {
         Beam {
-            span: self.span,
+            span: self.length(),
             mass_per_length: self.mass_per_length,
             flexural_rigidity: self.flexural_rigidity,
             section_modulus: self.section_modulus,
             damping_ratio: self.damping_ratio,
             modes: self.modes as usize,
-            sections: self
-                .section
-                .iter()
-                .map(|section| Section {
-                    name: section.name.clone(),
-                    position: section.position,
-                })
-                .collect(),
+            sections: self.sections(),
         }
     }
 }
@@ -128,6 +121,15 @@ impl IntegratorKind {
     /// The scheme's name in a scenario.
     pub fn name(self) -> &'static str {
         self.build().map_or("runge-kutta", Integrator::name)
+    }
+}
+
+impl InitialState {
+    pub(super) fn build(self) -> system::InitialState {
+        match self {
+            InitialState::Level => system::InitialState::Level,
+            InitialState::Profile => system::InitialState::Profile,
+        }
     }
 }
 
@@ -271,7 +273,10 @@ impl Scenario {
     pub fn crossing(&self) -> Result<(Crossing, Vec<Quantity>)> {
         let simulation = self.simulation()?;
         let crossing = self.crossing_at_any_step(&simulation)?;
-        let quantities = self.quantities(&crossing.beam, &simulation)?;
+        let sections: Vec<String> = crossing.beam.all_sections().map(|s| s.name).collect();
+        let available = Quantity::available(sections.iter().map(String::as_str));
+        let modulus = crossing.beam.section_modulus;
+        let quantities = self.recorded(&available, modulus, &simulation)?;
         let largest = system::largest_stable_step(&crossing);
         if largest < crossing.time_step {
             let expected = format!(
@@ -292,7 +297,7 @@ impl Scenario {
     /// # Errors
     /// A table that is missing or wrong; more than ten million steps.
     pub fn crossing_at_any_step(&self, simulation: &SimulationSpec) -> Result<Crossing> {
-        let VehicleSpec::QuarterCar(car) = self.vehicle()?;
+        let car = self.quarter_car()?;
         let Some(integrator) = simulation.integrator.build() else {
             let names = Integrator::ALL.map(|integrator| format!("{:?}", integrator.name()));
             let expected = format!("a scheme of crossings, one of {}", names.join(", "));
@@ -306,10 +311,10 @@ impl Scenario {
             time_step: simulation.time_step,
             steps: self.steps(simulation)?,
             record_every: simulation.record_every as usize,
-            initial_state: match simulation.initial_state {
-                InitialState::Level => system::InitialState::Level,
-                InitialState::Profile => system::InitialState::Profile,
-            },
+            initial_state: simulation
+                .initial_state
+                .unwrap_or(InitialState::Level)
+                .build(),
             gravity: simulation.gravity,
         })
     }
@@ -325,9 +330,13 @@ impl Scenario {
         Ok(steps as usize)
     }
 
-    fn quantities(&self, beam: &Beam, simulation: &SimulationSpec) -> Result<Vec<Quantity>> {
-        let sections: Vec<String> = beam.all_sections().map(|s| s.name).collect();
-        let available = Quantity::available(sections.iter().map(String::as_str));
+    /// The quantities to record, which are among those available.
+    pub(super) fn recorded(
+        &self,
+        available: &[Quantity],
+        section_modulus: Option<f64>,
+        simulation: &SimulationSpec,
+    ) -> Result<Vec<Quantity>> {
         let names: Vec<String> = available.iter().map(Quantity::name).collect();
         let mut wanted = Vec::new();
         for name in &simulation.record {
@@ -344,7 +353,7 @@ impl Scenario {
                     ..
                 }
             );
-            if stress && beam.section_modulus.is_none() {
+            if stress && section_modulus.is_none() {
                 return Err(BadInput::new(
                     self.place("bridge"),
                     "bridge.section_modulus",

@@ -48,7 +48,7 @@ impl Scenario {
                 )
                 .into());
         }
-        if simulation.initial_state == InitialState::Profile {
+        if simulation.initial_state == Some(InitialState::Profile) {
             let expected =
                 "no such key beside [oscillator], whose storeys have initial states of their own";
             return Err(self

@@ -36,7 +36,7 @@ impl Scenario {
     /// The first of the values that the number at `key` may not have, and what was expected.
     pub fn first_bad(&self, key: &str, values: &[f64]) -> Option<(usize, String)> {
         let path: Vec<&str> = key.split('.').collect();
-        let shape = Shape::of(schema::at(&path)?);
+        let shape = Shape::of(schema::at(&path, Some(self.effective.as_item()))?);
         let Shape::Number(bounds, _) = &shape else {
             return None;
         };
@@ -175,9 +175,13 @@ fn shaped(
         Shape::Table => node
             .table()
             .map(|entries| table(scenario, key, schema, entries)),
-        Shape::Tagged { tag, alternatives } => node
+        Shape::Tagged {
+            tag,
+            alternatives,
+            default,
+        } => node
             .table()
-            .map(|entries| tagged(scenario, key, tag, alternatives, entries)),
+            .map(|entries| tagged(scenario, key, (tag, *default), alternatives, entries)),
     };
     checked.unwrap_or_else(|| {
         let expected = shape.expected_for(node.number());
@@ -221,34 +225,36 @@ fn list_of(
     Ok(Json::Array(list))
 }
 
-/// Checks a table whose keys depend on the one named `tag`.
+/// Checks a table whose keys depend on the one named `tag`, or on its default.
 fn tagged(
     scenario: &Scenario,
     key: &str,
-    tag: &str,
+    (tag, default): (&str, Option<&str>),
     alternatives: &[(&str, &Json)],
     entries: &dyn TableLike,
 ) -> Result<Json, BadInput> {
     let names: Vec<&str> = alternatives.iter().map(|(name, _)| *name).collect();
     let key_of_tag = below(key, tag);
-    let Some(name) = entries.get(tag) else {
-        let found = format!("missing: {}", one_of(&names));
-        return Err(scenario.bad(&key_of_tag, "", found));
+    let name = match (entries.get(tag), default) {
+        (Some(name), _) => {
+            let choice = Shape::Choice(names);
+            let node = Node::from(name);
+            shaped(scenario, &key_of_tag, &Json::Null, &choice, &node)?
+        }
+        (None, Some(default)) => Json::from(default),
+        (None, None) => {
+            let found = format!("missing: {}", one_of(&names));
+            return Err(scenario.bad(&key_of_tag, "", found));
+        }
     };
-    let choice = Shape::Choice(names);
-    let name = shaped(
-        scenario,
-        &key_of_tag,
-        &Json::Null,
-        &choice,
-        &Node::from(name),
-    )?;
     let is_meant = |(other, _): &&(&str, &Json)| name == *other;
     let (_, schema) = alternatives
         .iter()
         .find(is_meant)
         .expect("one of the names");
-    table(scenario, key, schema, entries)
+    let mut checked = table(scenario, key, schema, entries)?;
+    checked[tag] = name;
+    Ok(checked)
 }
 
 /// Checks a table: no unknown key, no required one missing, then the values.

@@ -29,8 +29,8 @@ pub struct IrregularitySpec {
     pub terms: Option<u32>,
     /// Profile that every representative point has, alone or below the random field.
     pub deterministic: Option<DeterministicSpec>,
-    /// Position where the irregularity starts, the bridge's first end being 0 (m). By default the vehicle's place at
-    /// the start of the run: minus `vehicle.approach`, or 0 without a vehicle.
+    /// Position where the irregularity starts, the bridge's first end being 0 (m). By default the place of the
+    /// vehicle's last wheel at the start of the run: minus `vehicle.approach` for a quarter car, or 0 without a vehicle.
     pub start: Option<f64>,
     /// Length over which the irregularity is given (m).
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -310,7 +310,7 @@ impl WindowSpec {
 
 impl Scenario {
     /// Where the irregularity starts, in metres from the bridge's first end: `irregularity.start`, by default the
-    /// vehicle's place at the start of the run, -`vehicle.approach` (0 in a scenario without a vehicle).
+    /// place of the vehicle's last wheel at the start of the run (0 in a scenario without a vehicle).
     ///
     /// # Errors
     /// Where the default is needed and the table `[vehicle]` is there, but wrong.
@@ -318,7 +318,10 @@ impl Scenario {
         match irregularity.start {
             Some(start) => Ok(start),
             // 0 - approach, since minus zero would show in the files.
-            None if self.has("vehicle") => Ok(0.0 - self.vehicle()?.approach()),
+            None if self.has("vehicle") => {
+                let vehicle = self.vehicle()?;
+                Ok(0.0 - vehicle.approach() - vehicle.wheels_length())
+            }
             None => Ok(0.0),
         }
     }

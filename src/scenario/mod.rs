@@ -39,6 +39,7 @@ mod study;
 mod suggestion;
 #[cfg(test)]
 mod tests;
+pub mod train;
 mod varied;
 mod vehicle;
 
@@ -50,7 +51,7 @@ use toml_edit::{Document, DocumentMut};
 
 use crate::{BadInput, Error, Result};
 
-pub use bridge::{BridgeSpec, SectionSpec};
+pub use bridge::{BearingsSpec, BridgeSpec, DeckDampingKind, SectionSpec, SpanSpec, SpansKind};
 pub use density::{
     CellImageSpec, CellKernelKind, DensitySpec, FactorSpec, FixedSpec, GridKind, SmoothingSpec,
     WidthRuleSpec,
@@ -90,6 +91,7 @@ pub use spectrum::{
 };
 pub use study::{DensityVariantSpec, PointsVariantSpec, ReferenceKind, SeedsAboveSpec, StudySpec};
 pub use suggestion::nearest;
+pub use train::{ContactSpec, LoadModelSpec, TrackSpec, TrainSpec};
 pub use varied::VARIED_KEYS;
 pub use vehicle::{BumpStopSpec, QuarterCarSpec, VehicleSpec};
 
@@ -224,6 +226,16 @@ impl Scenario {
         self.required()
     }
 
+    /// The table `[contact]`, where there is one.
+    pub fn contact(&self) -> Result<Option<ContactSpec>> {
+        self.optional()
+    }
+
+    /// The table `[track]`, where there is one.
+    pub fn track(&self) -> Result<Option<TrackSpec>> {
+        self.optional()
+    }
+
     /// The table `[simulation]`.
     pub fn simulation(&self) -> Result<SimulationSpec> {
         self.required()
@@ -262,6 +274,8 @@ impl Scenario {
             oscillator: self.optional()?,
             bridge: self.optional()?,
             vehicle: self.optional()?,
+            contact: self.optional()?,
+            track: self.optional()?,
             random: self.optional()?,
             correlation: self.optional()?,
             simulation: self.optional()?,

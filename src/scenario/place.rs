@@ -49,10 +49,9 @@ impl Scenario {
 
     /// An error about a key that must be there and isn't; says what it is.
     pub(super) fn missing(&self, key: &str) -> BadInput {
-        let mut schema = schema::shared();
-        for name in key.split('.') {
-            schema = &schema["properties"][name];
-        }
+        let path: Vec<&str> = key.split('.').collect();
+        let schema = schema::at(&path, Some(self.effective.as_item()));
+        let schema = schema.unwrap_or(&serde_json::Value::Null);
         self.missing_at(key, schema)
     }
 

@@ -7,11 +7,14 @@ use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use toml_edit::Item;
+
+use super::shape::Shape;
 
 use super::{
-    BridgeSpec, CorrelationSpec, DensitySpec, ExactSpec, ExcitationSpec, IrregularitySpec,
-    OscillatorSpec, PointsSpec, RandomSpec, ReliabilitySpec, SimulationSpec, StudySpec,
-    VehicleSpec,
+    BridgeSpec, ContactSpec, CorrelationSpec, DensitySpec, ExactSpec, ExcitationSpec,
+    IrregularitySpec, OscillatorSpec, PointsSpec, RandomSpec, ReliabilitySpec, SimulationSpec,
+    StudySpec, TrackSpec, VehicleSpec,
 };
 
 /// A whole scenario: one table a stage. Every value is in SI units.
@@ -33,6 +36,10 @@ pub struct ScenarioSpec {
     pub bridge: Option<BridgeSpec>,
     /// The vehicle that crosses the bridge.
     pub vehicle: Option<VehicleSpec>,
+    /// The contact of wheel and rail, with trains only.
+    pub contact: Option<ContactSpec>,
+    /// The track, with trains only; by default none.
+    pub track: Option<TrackSpec>,
     /// Random parameters: numbers of the bridge and the vehicle with a distribution each.
     pub random: Option<Vec<RandomSpec>>,
     /// Correlations of random parameters; those that are not named are 0.
@@ -83,15 +90,33 @@ pub(super) fn knows(path: &[&str]) -> bool {
     below(shared(), path)
 }
 
-/// The schema of the key at `path` (an entry of a list by its number), if the scenario may have it.
-pub(super) fn at(path: &[&str]) -> Option<&'static Value> {
-    let mut schema = shared();
+/// The schema of the key at `path` (an entry of a list by its number), if a scenario with `item` may have it.
+pub(super) fn at(path: &[&str], item: Option<&Item>) -> Option<&'static Value> {
+    let (mut schema, mut item) = (shared(), item);
     for name in path {
-        schema = if name.parse::<usize>().is_ok() && schema["items"].is_object() {
-            &schema["items"]
-        } else {
-            schema["properties"].get(name)?
-        };
+        if let Shape::Tagged {
+            tag,
+            alternatives,
+            default,
+        } = Shape::of(schema)
+        {
+            let kind = item.and_then(|item| item.get(tag)?.as_str()).or(default);
+            let has = |schema: &Value| schema["properties"].get(name).is_some();
+            let mut meant = alternatives
+                .into_iter()
+                .filter(|(other, schema)| kind.is_none_or(|kind| kind == *other) && has(schema));
+            (_, schema) = meant.next()?;
+        }
+        match name.parse::<usize>() {
+            Ok(index) if schema["items"].is_object() => {
+                schema = &schema["items"];
+                item = item.and_then(|item| item.get(index));
+            }
+            Ok(_) | Err(_) => {
+                schema = schema["properties"].get(name)?;
+                item = item.and_then(|item| item.get(*name));
+            }
+        }
     }
     Some(schema)
 }

@@ -25,6 +25,8 @@ pub(super) enum Shape<'s> {
     Tagged {
         tag: &'s str,
         alternatives: Vec<(&'s str, &'s Json)>,
+        /// The value of `tag` where it is left out.
+        default: Option<&'s str>,
     },
 }
 
@@ -120,9 +122,16 @@ fn tagged(alternatives: &[Json]) -> Option<Shape<'_>> {
         .iter()
         .map(|schema| schema["properties"][tag]["const"].as_str())
         .collect();
+    let alternatives: Vec<(&str, &Json)> = names?.into_iter().zip(alternatives).collect();
+    let needs_tag = |schema: &Json| {
+        let required = schema["required"].as_array();
+        required.is_some_and(|keys| keys.iter().any(|key| key == tag))
+    };
+    let default = alternatives.iter().find(|(_, schema)| !needs_tag(schema));
     Some(Shape::Tagged {
         tag,
-        alternatives: names?.into_iter().zip(alternatives).collect(),
+        default: default.map(|(name, _)| *name),
+        alternatives,
     })
 }
 

@@ -22,9 +22,8 @@ pub struct SimulationSpec {
     #[serde(default = "default_record_every")]
     #[schemars(range(min = 1))]
     pub record_every: u32,
-    /// Where vehicle and bridge start.
-    #[serde(default)]
-    pub initial_state: InitialState,
+    /// Where vehicle and bridge start; by default `level`, with a train `profile`.
+    pub initial_state: Option<InitialState>,
     /// Names of the quantities to record, such as `bridge/midspan/displacement`.
     #[schemars(length(min = 1), extend("uniqueItems" = true))]
     pub record: Vec<String>,
@@ -46,7 +45,7 @@ pub struct SimulationSpec {
 pub enum IntegratorKind {
     /// Newmark, beta = 0, gamma = 1/2: stable while the largest angular frequency times the step is below 2.
     ExplicitNewmark,
-    /// Newmark, beta = 1/4, gamma = 1/2: average acceleration, stable for any step.
+    /// Newmark, beta = 1/4, gamma = 1/2: average acceleration, stable for any step; the scheme of trains.
     Newmark,
     /// Zhai's explicit two-step scheme.
     Zhai,

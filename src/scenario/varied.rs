@@ -1,6 +1,6 @@
 //! Crossings whose parameters differ from point to point.
 
-use super::{BridgeSpec, BumpStopSpec, QuarterCarSpec, Scenario, VehicleSpec};
+use super::{BridgeSpec, BumpStopSpec, QuarterCarSpec, Scenario};
 use crate::Result;
 use crate::ensemble::CrossingOf;
 use crate::system::Crossing;
@@ -79,7 +79,7 @@ impl Scenario {
         nominal: &Crossing,
         keys: &[String],
     ) -> Result<(Crossing, CrossingOf)> {
-        let VehicleSpec::QuarterCar(car) = self.vehicle()?;
+        let car = self.quarter_car()?;
         let bridge = self.bridge()?;
         let mut specs = Specs { bridge, car };
         let at = |key: &String| VARIED_KEYS.iter().position(|known| known == key);

@@ -3,8 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::train::{self, LoadModelSpec, Misfit, TrainSpec};
 use super::{Scenario, Table};
-use crate::BadInput;
+use crate::system::train::{Car, PlacedCar};
+use crate::{BadInput, Result};
 
 /// What crosses the bridge.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -12,6 +14,10 @@ use crate::BadInput;
 pub enum VehicleSpec {
     /// Body and wheel on suspension and tyre, in vertical motion.
     QuarterCar(QuarterCarSpec),
+    /// Cars in a row, on a track or on the deck.
+    Train(TrainSpec),
+    /// Moving forces of a standard.
+    LoadModel(LoadModelSpec),
 }
 
 impl VehicleSpec {
@@ -19,6 +25,8 @@ impl VehicleSpec {
     pub fn speed(&self) -> f64 {
         match self {
             VehicleSpec::QuarterCar(car) => car.speed,
+            VehicleSpec::Train(train) => train.speed,
+            VehicleSpec::LoadModel(model) => model.speed,
         }
     }
 
@@ -26,7 +34,31 @@ impl VehicleSpec {
     pub fn approach(&self) -> f64 {
         match self {
             VehicleSpec::QuarterCar(car) => car.approach,
+            VehicleSpec::Train(train) => train.approach,
+            VehicleSpec::LoadModel(model) => model.approach,
         }
+    }
+
+    /// The cars of a train in their places; none of a quarter car. A misfit's key is below `vehicle`.
+    pub(super) fn cars(&self) -> Result<Vec<PlacedCar>, Misfit> {
+        match self {
+            VehicleSpec::QuarterCar(_) => Ok(Vec::new()),
+            VehicleSpec::Train(train) => train::placed(&train.car),
+            VehicleSpec::LoadModel(model) => Ok(vec![PlacedCar {
+                car: Car::MovingForces(model.model.axles()),
+                behind: 0.0,
+            }]),
+        }
+    }
+
+    /// Distance from the first wheel back to the last (m).
+    pub fn wheels_length(&self) -> f64 {
+        // The table is checked: what is no train has one wheel.
+        let cars = self.cars().unwrap_or_default();
+        let last = cars
+            .last()
+            .map(|last| (last.behind, train::extent(&last.car)));
+        last.map_or(0.0, |(behind, extent)| behind + extent)
     }
 }
 
@@ -114,7 +146,32 @@ impl Table for VehicleSpec {
     fn check(&self, scenario: &Scenario) -> Result<(), BadInput> {
         match self {
             VehicleSpec::QuarterCar(car) => check_damping(car, scenario),
+            VehicleSpec::Train(_) | VehicleSpec::LoadModel(_) => match self.cars() {
+                Ok(_) => Ok(()),
+                Err(misfit) => Err(misfit.below("vehicle").in_scenario(scenario)),
+            },
         }
+    }
+}
+
+impl Scenario {
+    /// Whether the vehicle is a train or a load model.
+    pub fn is_train(&self) -> bool {
+        let kind = self.item("vehicle.kind").and_then(|kind| kind.as_str());
+        matches!(kind, Some("train" | "load-model"))
+    }
+
+    /// The table `[vehicle]` of a quarter car.
+    ///
+    /// # Errors
+    /// Another kind of vehicle.
+    pub fn quarter_car(&self) -> Result<QuarterCarSpec> {
+        let found = match self.vehicle()? {
+            VehicleSpec::QuarterCar(car) => return Ok(car),
+            VehicleSpec::Train(_) => "\"train\"",
+            VehicleSpec::LoadModel(_) => "\"load-model\"",
+        };
+        Err(self.bad("vehicle.kind", "\"quarter-car\"", found).into())
     }
 }
 

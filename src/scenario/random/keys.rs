@@ -6,10 +6,10 @@ use toml_edit::Item;
 use crate::BadInput;
 use crate::scenario::shape::{Bounds, Shape};
 use crate::scenario::suggestion::nearest;
-use crate::scenario::{Scenario, VARIED_KEYS, schema};
+use crate::scenario::{Scenario, VARIED_KEYS, schema, train};
 
 /// The tables that a run at each point uses: every number in them can be random.
-const TABLES: [&str; 3] = ["bridge", "vehicle", "oscillator"];
+const TABLES: [&str; 5] = ["bridge", "vehicle", "contact", "track", "oscillator"];
 
 /// Why keys of the other tables can't be.
 fn reason(table: &str) -> Option<&'static str> {
@@ -49,7 +49,11 @@ enum Found {
 /// The number with the name `name`; `at` is the key that names it.
 pub(super) fn number(scenario: &Scenario, at: &str, name: &str) -> Result<Number, BadInput> {
     let path: Vec<&str> = name.split('.').collect();
-    let expected = "the key of a number of [bridge], [vehicle] or [oscillator]";
+    let expected = if scenario.is_train() {
+        "the key of a number of [bridge], [vehicle], [contact] or [track]"
+    } else {
+        "the key of a number of [bridge], [vehicle] or [oscillator]"
+    };
     let refused = |found: String| scenario.bad(at, expected, found);
     if let Some(reason) = reason(path[0]) {
         return Err(refused(format!("{name:?}")).remedy(format!("it can't be random: {reason}")));
@@ -61,7 +65,11 @@ pub(super) fn number(scenario: &Scenario, at: &str, name: &str) -> Result<Number
         Found::Nothing
     };
     match found {
-        Found::Number(_) if is_shared(name) => {
+        Found::Number(_) if scenario.is_train() && train::is_geometry(name) => {
+            let found = format!("{name:?}, which all points of a crossing share");
+            Err(refused(found).remedy("it can't be random: the places of wheels, fasteners and sections are the same for all points, but for the speed"))
+        }
+        Found::Number(_) if !scenario.is_train() && is_shared(name) => {
             let found = format!("{name:?}, which all points of a crossing share");
             Err(refused(found).remedy(format!("known are {}", VARIED_KEYS.join(", "))))
         }
@@ -106,8 +114,12 @@ fn find(schema: &Json, item: Option<&Item>, path: &[&str]) -> Found {
         Shape::Table if path.is_empty() => Found::Other("a table"),
         Shape::Table => property().unwrap_or(Found::Nothing),
         Shape::Tagged { .. } if path.is_empty() => Found::Other("a table"),
-        Shape::Tagged { tag, alternatives } => {
-            let kind = item.and_then(|item| item.get(*tag)?.as_str());
+        Shape::Tagged {
+            tag,
+            alternatives,
+            default,
+        } => {
+            let kind = item.and_then(|item| item.get(*tag)?.as_str()).or(*default);
             let meant = |name: &str| kind.is_none_or(|kind| kind == name);
             let mut found = alternatives
                 .iter()
@@ -123,9 +135,11 @@ fn find(schema: &Json, item: Option<&Item>, path: &[&str]) -> Found {
     }
 }
 
-/// Whether the lanes of a crossing can't have values of their own of this number.
+/// Whether the lanes of a quarter car's crossing can't have values of their own of this number.
 fn is_shared(name: &str) -> bool {
-    let crossing = name.starts_with("bridge.") || name.starts_with("vehicle.");
+    let crossing = ["bridge.", "vehicle.", "contact.", "track."]
+        .iter()
+        .any(|table| name.starts_with(table));
     crossing && !VARIED_KEYS.contains(&name)
 }
 
@@ -143,7 +157,11 @@ fn all(scenario: &Scenario) -> Vec<String> {
         let schema = &schema::shared()["properties"][table];
         gather(table, schema, scenario.effective.get(table), &mut keys);
     }
-    keys.retain(|key| !is_shared(key));
+    if scenario.is_train() {
+        keys.retain(|key| !train::is_geometry(key));
+    } else {
+        keys.retain(|key| !is_shared(key));
+    }
     keys
 }
 
@@ -156,14 +174,24 @@ fn gather(key: &str, schema: &Json, item: Option<&Item>, keys: &mut Vec<String>)
                 gather(&format!("{key}.{name}"), property, item, keys);
             }
         }
-        Shape::Tagged { tag, alternatives } => {
-            let kind = item.and_then(|item| item.get(tag)?.as_str());
+        Shape::Tagged {
+            tag,
+            alternatives,
+            default,
+        } => {
+            let kind = item.and_then(|item| item.get(tag)?.as_str()).or(default);
             for (name, schema) in alternatives {
                 if kind.is_none_or(|kind| kind == name) {
                     gather(key, schema, item, keys);
                 }
             }
         }
-        Shape::Integer(_) | Shape::Text { .. } | Shape::Choice(_) | Shape::List { .. } => {}
+        Shape::List { items, .. } => {
+            let members = (0..).map_while(|index| Some((index, item?.get(index)?)));
+            for (index, member) in members {
+                gather(&format!("{key}.{index}"), items, Some(member), keys);
+            }
+        }
+        Shape::Integer(_) | Shape::Text { .. } | Shape::Choice(_) => {}
     }
 }

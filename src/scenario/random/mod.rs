@@ -203,11 +203,14 @@ impl Scenario {
         Ok(filled)
     }
 
-    /// What stands at `key`.
-    fn item(&self, key: &str) -> Option<&Item> {
+    /// What stands at `key`; a member of a list by its number.
+    pub(super) fn item(&self, key: &str) -> Option<&Item> {
         let mut item = self.effective.as_item();
         for name in key.split('.') {
-            item = item.get(name)?;
+            item = match name.parse::<usize>() {
+                Ok(index) => item.get(index)?,
+                Err(_) => item.get(name)?,
+            };
         }
         Some(item)
     }

@@ -9,6 +9,9 @@ fn read_all(name: &str, text: &str) -> Result<()> {
         .filter_map(|line| line.strip_prefix("# --set "));
     let scenario = Scenario::from_text(name, text)?.set(&sets(&options.collect::<Vec<_>>()))?;
     scenario.check_all()?;
+    if scenario.is_train() {
+        return scenario.train().map(|_| ());
+    }
     let points = scenario.points()?;
     if let Some(band) = scenario.irregularity()?.wavenumber {
         scenario.point_count(&points, 2 * band.count as usize, 0)?;

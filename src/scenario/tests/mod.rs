@@ -8,6 +8,7 @@ mod overrides;
 mod random;
 mod schema;
 mod spectrum;
+mod train;
 
 fn repository() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -211,13 +212,13 @@ fn the_example_is_the_papers_case() {
         (points.rule, points.count, points.truncate_at),
         (RuleKind::PartiallyStratified, 987, Some(3.0))
     );
-    let VehicleSpec::QuarterCar(car) = all.vehicle.unwrap();
+    let car = scenario.quarter_car().unwrap();
     // 2 * 0.1 * sqrt(12000 * 280e3)
     assert!((car.suspension_damping() - 11_593.101_396_951_55).abs() < 1e-9);
     let bridge = all.bridge.unwrap();
     assert_eq!(
         (bridge.span, bridge.modes, bridge.section.len()),
-        (40.0, 5, 0)
+        (Some(40.0), 5, 0)
     );
     assert_eq!(all.simulation.unwrap().gravity, 9.81);
     assert_eq!(all.reliability.unwrap().limit.len(), 2);
@@ -253,7 +254,7 @@ fn optional_keys_are_read() {
         Path::new("/measured.parquet")
     );
     assert_eq!(scenario.bridge().unwrap().section[1].name, "third_1-3");
-    let VehicleSpec::QuarterCar(car) = scenario.vehicle().unwrap();
+    let car = scenario.quarter_car().unwrap();
     assert_eq!(car.suspension_damping(), 0.0);
     assert_eq!(
         car.bump_stop,

@@ -109,7 +109,7 @@ fn a_number_that_is_random_may_be_left_out() {
     ];
     let scenario = scenario.set(&sets(&options)).unwrap();
     let text = scenario.text().to_owned();
-    let VehicleSpec::QuarterCar(car) = scenario.vehicle().unwrap();
+    let car = scenario.quarter_car().unwrap();
     assert!((car.suspension_stiffness / 280e3 - 1.0).abs() < 1e-15);
     assert_eq!(car.tyre_stiffness, 150e3);
     assert!((scenario.bridge().unwrap().damping_ratio - 0.02).abs() < 1e-16);
@@ -120,7 +120,7 @@ fn a_number_that_is_random_may_be_left_out() {
     let scenario = with(gap)
         .set(&sets(&["vehicle.bump_stop.stiffness=1e6"]))
         .unwrap();
-    let VehicleSpec::QuarterCar(car) = scenario.vehicle().unwrap();
+    let car = scenario.quarter_car().unwrap();
     assert!((car.bump_stop.unwrap().gap - 0.02).abs() < 1e-16);
     let message = with(gap).vehicle().unwrap_err().to_string();
     assert!(

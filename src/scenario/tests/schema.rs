@@ -5,8 +5,12 @@ use std::collections::BTreeSet;
 use serde_json::Value as Json;
 
 use super::oscillator::{CHAIN_KINDS, SINGLE_OTHERWISE, chain, single};
+use super::train::{TRAIN_KINDS, train};
 use super::*;
 use crate::scenario::shape::Shape;
+use crate::scenario::train::{
+    BallastedPreset, CarPreset, LoadModelKind, SlabPreset, WheelProfileKind,
+};
 
 /// Every schema in the scenario's schema, with its key; an alternative of a kind has the kind's key.
 fn walk<'s>(key: &str, schema: &'s Json, found: &mut Vec<(String, &'s Json)>) {
@@ -55,6 +59,9 @@ fn keys(key: &str, json: &Json, found: &mut BTreeSet<String>) {
 fn is_tag(key: &str) -> bool {
     let tags = [
         ".vehicle.kind",
+        ".vehicle.car.kind",
+        ".contact.kind",
+        ".track.kind",
         ".excitation.spectrum.kind",
         ".excitation.modulation.kind",
         ".irregularity.spectrum.kind",
@@ -86,6 +93,10 @@ fn the_specs_and_the_schema_have_the_same_keys() {
         chain(),
         chain().set(&sets(&CHAIN_KINDS[0])).unwrap(),
         chain().set(&sets(&CHAIN_KINDS[1])).unwrap(),
+        train(),
+        train().set(&sets(TRAIN_KINDS[0])).unwrap(),
+        train().set(&sets(TRAIN_KINDS[1])).unwrap(),
+        train().set(&sets(TRAIN_KINDS[2])).unwrap(),
         kinds(&[
             r#"density.smoothing={ rule = "factor" }"#,
             r#"reliability.smoothing={ rule = "fixed", width = 1 }"#,
@@ -222,6 +233,15 @@ fn every_choice_is_one_that_serde_knows() {
                 ".density.smoothing.kernel" => read::<CellKernelKind>(json),
                 ".density.grid" => read::<GridKind>(json),
                 ".reliability.limit.kind" => read::<LimitKind>(json),
+                ".bridge.kind" => read::<SpansKind>(json),
+                ".bridge.damping" => read::<DeckDampingKind>(json),
+                ".vehicle.model" => read::<LoadModelKind>(json),
+                ".vehicle.car.preset" => read::<CarPreset>(json),
+                ".contact.wheel_profile" => read::<WheelProfileKind>(json),
+                ".track.preset" => match choice {
+                    "zhai-2004-ballasted" => read::<BallastedPreset>(json),
+                    _ => read::<SlabPreset>(json),
+                },
                 ".study.reference" => read::<ReferenceKind>(json),
                 other => panic!("{other} is not tested here"),
             }
