@@ -332,3 +332,53 @@ fn a_train_at_rest_stays_at_rest() {
         }
     }
 }
+
+/// Prints what a change of contact or mesh does.
+#[test]
+fn zz_experiment() {
+    let names = [
+        "bridge/midspan/displacement",
+        "bridge/midspan/acceleration",
+        "bridge/midspan/bending_moment",
+        "vehicle/car-1/body/acceleration",
+        "vehicle/car-1/body/front/acceleration",
+        "vehicle/car-1/body/rear/acceleration",
+        "vehicle/car-1/wheel-1/contact_force",
+        "vehicle/car-1/wheel-4/contact_force",
+        "track/midspan/rail/displacement",
+    ];
+    let sine = |x: f64| 0.5e-3 * (std::f64::consts::TAU * x / 3.0).sin();
+    let smooth = |_: f64| 0.0;
+    for (label, contact, rough) in [
+        ("A rigid", Contact::Rigid, false),
+        ("A hertz", HERTZ, false),
+        ("B hertz", HERTZ, true),
+        ("B linear", Contact::Linear { stiffness: 2.8e9 }, true),
+        ("B rigid", Contact::Rigid, true),
+        ("B 1e12", Contact::Linear { stiffness: 1e12 }, true),
+    ] {
+        for (step, elements) in [(1e-3, 1), (1e-3, 2), (2.5e-4, 1)] {
+            let mut case = on_track(contact, step, 1, 200.0 / 3.6);
+            case.steps = (2.16 / step).round() as usize;
+            case.track = Some(Track {
+                elements,
+                ..ballasted(-60.0, 102.0)
+            });
+            let found = if rough {
+                histories(&case, &names, sine)
+            } else {
+                histories(&case, &names, smooth)
+            };
+            let skip = (0.3 / step) as usize;
+            let texts: Vec<String> = found
+                .iter()
+                .map(|h| {
+                    let low = h[skip..].iter().copied().fold(f64::MAX, f64::min);
+                    let high = h[skip..].iter().copied().fold(f64::MIN, f64::max);
+                    format!("{low:.7}/{high:.7}")
+                })
+                .collect();
+            println!("{label} {step} {elements}: {}", texts.join("  "));
+        }
+    }
+}

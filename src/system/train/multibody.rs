@@ -70,6 +70,10 @@ impl Multibody {
         let free: Vec<usize> = (0..self.inertia.len())
             .filter(|k| !held.contains(k))
             .collect();
+        if free.is_empty() {
+            let own = |row: usize| (0..held.len()).map(move |k| if k == row { 1.0 } else { 0.0 });
+            return (0..held.len()).map(|row| own(row).collect()).collect();
+        }
         let stiffness =
             |i: usize, j: usize| -> f64 { self.springs.iter().map(|s| s.stiffness_of(i, j)).sum() };
         let inner =
