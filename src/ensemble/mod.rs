@@ -27,7 +27,7 @@ pub use lanes::LANES;
 pub use path::WheelPath;
 pub use strip::Strip;
 pub use system::{Points, Stepper, System};
-pub use train::{Refusal, TRAIN_LANES, TrainCrossingOf, Trains};
+pub use train::{Refusal, Superposition, TRAIN_LANES, TrainCrossingOf, Trains};
 
 #[cfg(test)]
 mod tests;

@@ -55,6 +55,21 @@ impl WheelPath {
         Some(WheelPath { stencils, on_grid })
     }
 
+    /// The positions of the grid that some step feels.
+    pub fn reach(&self) -> Range<usize> {
+        let width = if self.on_grid { 1 } else { 4 };
+        let firsts = || self.stencils.iter().map(|stencil| stencil.first);
+        let end = firsts().max().map_or(0, |last| last + width);
+        firsts().min().unwrap_or(0)..end.max(4)
+    }
+
+    /// The first step that feels one of these positions.
+    pub fn first_felt(&self, nodes: &Range<usize>) -> Option<usize> {
+        self.stencils.iter().position(|stencil| {
+            stencil.first < nodes.end && stencil.first + stencil.weights.len() > nodes.start
+        })
+    }
+
     /// Fills `[step][lane]`, rows of `width` lanes, for these steps from the lanes' rows
     /// `[lane][position]`; lanes beyond the rows get zeros.
     pub fn fill(
@@ -88,7 +103,7 @@ impl WheelPath {
 }
 
 /// Lagrange's weights of the nodes 0, 1, 2, 3 at s.
-fn cubic(s: f64) -> [f64; 4] {
+pub(super) fn cubic(s: f64) -> [f64; 4] {
     let (a, b, c, d) = (s, s - 1.0, s - 2.0, s - 3.0);
     [
         b * c * d / -6.0,

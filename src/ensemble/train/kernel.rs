@@ -16,7 +16,7 @@ use super::lanes::{Numbers, Row, TRAIN_LANES, each, load, neg_mul_add, store};
 use super::meeting::Meeting;
 use super::outputs::Output;
 use super::shape::{
-    COMPRESSION, HALF_STEP, INVERSE_STEP, Law, OF_WHEEL, SOFTNESS, STEP, Shape, WEIGHT,
+    COMPRESSION, HALF_STEP, INVERSE_STEP, LIGHTNESS, Law, OF_WHEEL, SOFTNESS, STEP, Shape, WEIGHT,
 };
 use super::state::State;
 use crate::ensemble::Strip;
@@ -449,12 +449,12 @@ impl<N: Numbers> Kernel<'_, '_, N> {
                 }
                 Output::Contact(wheel) => force(self.state, *wheel),
                 Output::Unloading(wheel) => {
-                    let at = shape.layout.wheels + OF_WHEEL * wheel + WEIGHT;
-                    let weight: Row<S, W> = self.numbers.row(simd, at);
+                    let at = shape.layout.wheels + OF_WHEEL * wheel;
+                    let weight: Row<S, W> = self.numbers.row(simd, at + WEIGHT);
+                    let lightness: Row<S, W> = self.numbers.row(simd, at + LIGHTNESS);
                     let f = force(self.state, *wheel);
                     each!(simd, j => {
-                        let ratio = simd.div_f64s(f[j], weight[j]);
-                        simd.sub_f64s(simd.splat_f64s(1.0), ratio)
+                        simd.mul_f64s(lightness[j], simd.sub_f64s(weight[j], f[j]))
                     })
                 }
                 Output::Irregularity(wheel) => load(simd, &eta[wheel * TRAIN_LANES..]),

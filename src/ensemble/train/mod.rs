@@ -7,26 +7,22 @@ mod outputs;
 mod shape;
 mod sparse;
 mod state;
+mod stepper;
+mod superposition;
 #[cfg(test)]
 mod tests;
 
 pub use lanes::TRAIN_LANES;
+pub use superposition::Superposition;
 
-use super::{Divergence, Points, Stepper, Strip, System, WheelPath};
+use super::{Divergence, Stepper, System, WheelPath};
 use crate::quantity::Quantity;
 use crate::system::train::TrainCrossing;
-use kernel::Kernel;
-use lanes::{PerLane, Shared};
+use lanes::Shared;
 use meeting::{Finder, Meeting};
-use pulp::{Arch, Simd, WithSimd};
-use shape::Shape;
-use state::State;
-use std::ops::Range;
+use shape::{Law, Shape};
+use stepper::TrainStepper;
 
-/// Steps whose meetings and irregularities are found at once.
-const CHUNK: usize = 32;
-/// No coordinate is this large (m).
-const BOUND: f64 = 1e6;
 /// Meetings that all points share are kept up to this many numbers; larger ones are found again for each batch.
 const MOST_KEPT: usize = 1 << 24;
 
@@ -43,6 +39,10 @@ pub struct Trains {
     /// Of every wheel in the middle of every step; of every wheel at the start.
     path: WheelPath,
     start: WheelPath,
+    /// The recorded times (s).
+    times: Vec<f64>,
+    /// The points' steps differ in time.
+    resampled: bool,
     varied: Option<Varied>,
 }
 
@@ -65,14 +65,60 @@ pub enum Refusal {
 }
 
 impl Trains {
-    /// All points cross alike, on irregularities with `count` positions from `start` (m) on, `spacing` (m) apart.
+    /// All points cross alike, on irregularities on a grid: its start (m), spacing (m) and number of positions.
     ///
     /// # Errors
     /// See [`Refusal`].
     pub fn new(
         crossing: TrainCrossing,
         quantities: &[Quantity],
+        grid: (f64, f64, usize),
+    ) -> Result<Trains, Refusal> {
+        let times = crossing.times();
+        let mut trains = Trains::on(crossing, quantities, grid, times)?;
+        trains.keep_meetings();
+        Ok(trains)
+    }
+
+    /// Each point has values of its own of these parameters (indices of [`super::Points::parameters`]). Where the speed
+    /// is one of them, `fastest` (m/s) is the largest of all points.
+    ///
+    /// A step takes all points as far along the track, so that they share the wheels' places; where the speed differs so
+    /// does the step in time, and the responses are taken from the steps by cubics at the times that all share. The run of
+    /// the fastest needs the most steps, and all take as many.
+    ///
+    /// # Errors
+    /// See [`Refusal`].
+    pub fn varied(
+        crossing: TrainCrossing,
+        quantities: &[Quantity],
+        grid: (f64, f64, usize),
+        fastest: Option<f64>,
+        parameters: Vec<usize>,
+        crossing_of: TrainCrossingOf,
+    ) -> Result<Trains, Refusal> {
+        let times = crossing.times();
+        let mut longest = crossing;
+        if let Some(fastest) = fastest {
+            let ratio = (fastest / longest.speed).max(1.0);
+            longest.steps = (longest.steps as f64 * ratio).ceil() as usize + 2;
+            longest.record_every = 1;
+        }
+        Ok(Trains {
+            resampled: fastest.is_some(),
+            varied: Some(Varied {
+                parameters,
+                crossing_of,
+            }),
+            ..Trains::on(longest, quantities, grid, times)?
+        })
+    }
+
+    fn on(
+        crossing: TrainCrossing,
+        quantities: &[Quantity],
         (start, spacing, count): (f64, f64, usize),
+        times: Vec<f64>,
     ) -> Result<Trains, Refusal> {
         let shape =
             Shape::new(crossing, quantities).map_err(|off| Refusal::OffTrack(off.position))?;
@@ -82,11 +128,9 @@ impl Trains {
             shape.wheels.iter().map(move |wheel| first - wheel.behind)
         };
         let positions: Vec<f64> = (0..=shape.crossing.steps).flat_map(of_step).collect();
-        let at_start: Vec<f64> = shape
-            .wheels
-            .iter()
-            .map(|wheel| -shape.crossing.approach - wheel.behind)
-            .collect();
+        let first = -shape.crossing.approach;
+        let at_start = shape.wheels.iter().map(|wheel| first - wheel.behind);
+        let at_start: Vec<f64> = at_start.collect();
         let off = || {
             let last = at_start.iter().copied().fold(f64::MAX, f64::min);
             let first = positions.iter().copied().fold(f64::MIN, f64::max);
@@ -94,27 +138,17 @@ impl Trains {
         };
         let path = WheelPath::new(&positions, start, spacing, count).ok_or_else(off)?;
         let at = WheelPath::new(&at_start, start, spacing, count).ok_or_else(off)?;
-        let mut trains = Trains {
+        Ok(Trains {
             lifted: shape.lifted(),
             shape,
             numbers,
             meetings: Vec::new(),
             path,
             start: at,
+            times,
+            resampled: false,
             varied: None,
-        };
-        trains.keep_meetings();
-        Ok(trains)
-    }
-
-    /// Each point has values of its own of these parameters (indices of [`Points::parameters`]).
-    pub fn vary(mut self, parameters: Vec<usize>, crossing_of: TrainCrossingOf) -> Trains {
-        self.meetings = Vec::new();
-        self.varied = Some(Varied {
-            parameters,
-            crossing_of,
-        });
-        self
+        })
     }
 
     fn keep_meetings(&mut self) {
@@ -141,7 +175,7 @@ impl Trains {
 
 impl System for Trains {
     fn times(&self) -> Vec<f64> {
-        self.shape.crossing.times()
+        self.times.clone()
     }
 
     fn outputs(&self) -> usize {
@@ -157,20 +191,7 @@ impl System for Trains {
     }
 
     fn stepper(&self) -> Box<dyn Stepper + '_> {
-        let width = if self.varied.is_some() {
-            TRAIN_LANES
-        } else {
-            1
-        };
-        Box::new(TrainStepper {
-            trains: self,
-            state: State::new(&self.shape),
-            finder: Finder::new(&self.shape, width),
-            meetings: vec![Meeting::default(); CHUNK],
-            irregularity: vec![0.0; CHUNK * self.shape.wheels.len() * TRAIN_LANES],
-            rows: Vec::new(),
-            arch: Arch::new(),
-        })
+        Box::new(TrainStepper::new(self))
     }
 
     fn explain(&self, divergence: Divergence) -> String {
@@ -180,173 +201,5 @@ impl System for Trains {
              too large, or the time step too long for the contact: look at the points file, make \
              simulation.time_step smaller"
         )
-    }
-}
-
-struct TrainStepper<'a> {
-    trains: &'a Trains,
-    state: State,
-    finder: Finder,
-    meetings: Vec<Meeting>,
-    irregularity: Vec<f64>,
-    /// Numbers `[number][lane]`, where they differ.
-    rows: Vec<f64>,
-    arch: Arch,
-}
-
-impl Stepper for TrainStepper<'_> {
-    fn run(&mut self, points: &Points<'_>, strip: &mut Strip<'_>) -> Result<(), Divergence> {
-        let trains = self.trains;
-        let shape = &trains.shape;
-        if let Some(varied) = &trains.varied {
-            varied.fill(points, shape, &trains.numbers, &mut self.rows);
-        }
-        let wheels = shape.wheels.len();
-        let mut heights = vec![0.0; wheels * TRAIN_LANES];
-        let all = 0..wheels;
-        trains.start.fill(
-            points.excitation,
-            points.samples,
-            all,
-            TRAIN_LANES,
-            &mut heights,
-        );
-        let rows = &self.rows;
-        let number = |index: usize, lane: usize| match rows.is_empty() {
-            true => trains.numbers[index],
-            false => rows[index * TRAIN_LANES + lane],
-        };
-        self.state.start(shape, number, &trains.lifted, &heights);
-        let total = shape.crossing.steps + 1;
-        for first in (0..total).step_by(CHUNK) {
-            let steps = first..(first + CHUNK).min(total);
-            let of_wheels = first * wheels..steps.end * wheels;
-            let eta = &mut self.irregularity[..of_wheels.len() * TRAIN_LANES];
-            trains.path.fill(
-                points.excitation,
-                points.samples,
-                of_wheels,
-                TRAIN_LANES,
-                eta,
-            );
-            self.step(steps.clone(), points.range.len(), strip);
-            if let Some(lane) = self.state.unbounded(BOUND) {
-                return Err(Divergence {
-                    lane: lane.min(points.range.len() - 1),
-                    step: steps.end - 1,
-                });
-            }
-        }
-        Ok(())
-    }
-}
-
-impl TrainStepper<'_> {
-    fn step(&mut self, steps: Range<usize>, width: usize, strip: &mut Strip<'_>) {
-        let trains = self.trains;
-        let shape = &trains.shape;
-        let wheels = shape.wheels.len();
-        let irregularity = &self.irregularity[..steps.len() * wheels * TRAIN_LANES];
-        if trains.varied.is_some() {
-            for (step, meeting) in steps.clone().zip(&mut self.meetings) {
-                self.arch.dispatch(Find {
-                    finder: &mut self.finder,
-                    shape,
-                    numbers: PerLane(&self.rows),
-                    step,
-                    meeting,
-                });
-            }
-            self.arch.dispatch(Kernel {
-                shape,
-                numbers: PerLane(&self.rows),
-                meetings: &self.meetings,
-                varied: true,
-                state: &mut self.state,
-                steps,
-                irregularity,
-                strip,
-                width,
-            });
-            return;
-        }
-        let meetings = if trains.meetings.is_empty() {
-            for (step, meeting) in steps.clone().zip(&mut self.meetings) {
-                trains.find(&mut self.finder, step, meeting);
-            }
-            &self.meetings[..]
-        } else {
-            &trains.meetings[steps.clone()]
-        };
-        self.arch.dispatch(Kernel {
-            shape,
-            numbers: Shared(&trains.numbers),
-            meetings,
-            varied: false,
-            state: &mut self.state,
-            steps,
-            irregularity,
-            strip,
-            width,
-        });
-    }
-}
-
-impl Varied {
-    /// The points' numbers as rows of lanes, the last point's also in lanes that are left over. Values that no
-    /// structure has leave the lane not a number, which ends the run.
-    fn fill(&self, points: &Points<'_>, shape: &Shape, nominal: &[f64], rows: &mut Vec<f64>) {
-        rows.resize(shape.layout.size * TRAIN_LANES, 0.0);
-        let columns: Vec<&[f64]> = self
-            .parameters
-            .iter()
-            .map(|parameter| points.parameter(*parameter))
-            .collect();
-        let mut values = vec![0.0; columns.len()];
-        let mut list = vec![f64::NAN; nominal.len()];
-        for lane in 0..TRAIN_LANES {
-            if lane < points.range.len() {
-                for (value, column) in values.iter_mut().zip(&columns) {
-                    *value = column[lane];
-                }
-                let crossing = (self.crossing_of)(&values);
-                list = shape
-                    .numbers(&crossing)
-                    .unwrap_or_else(|| vec![f64::NAN; nominal.len()]);
-            }
-            for (row, value) in rows.chunks_exact_mut(TRAIN_LANES).zip(&list) {
-                row[lane] = *value;
-            }
-        }
-    }
-}
-
-/// A meeting in rows of lanes.
-struct Find<'a> {
-    finder: &'a mut Finder,
-    shape: &'a Shape,
-    numbers: PerLane<'a>,
-    step: usize,
-    meeting: &'a mut Meeting,
-}
-
-impl WithSimd for Find<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Find {
-            finder,
-            shape,
-            numbers,
-            step,
-            meeting,
-        } = self;
-        match S::F64_LANES {
-            8 => finder.find::<S, { TRAIN_LANES / 8 }, _>(simd, shape, numbers, step, meeting),
-            4 => finder.find::<S, { TRAIN_LANES / 4 }, _>(simd, shape, numbers, step, meeting),
-            2 => finder.find::<S, { TRAIN_LANES / 2 }, _>(simd, shape, numbers, step, meeting),
-            _ => finder.find::<S, TRAIN_LANES, _>(simd, shape, numbers, step, meeting),
-        }
     }
 }

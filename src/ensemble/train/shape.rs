@@ -40,7 +40,7 @@ pub struct Shape {
 pub struct Layout {
     /// h, h/2, 1/h, and (1/3EI)/(1/3EI of the nominal rail).
     pub constants: usize,
-    /// Of each wheel: W, δ_W, softness or G.
+    /// Of each wheel: W, δ_W, softness or G, 1/W.
     pub wheels: usize,
     /// 1/D; −L below its diagonal by rows, and by columns; whole rows of h K and of C.
     pub inverse: usize,
@@ -63,7 +63,9 @@ const CONSTANTS: usize = 4;
 pub const WEIGHT: usize = 0;
 pub const COMPRESSION: usize = 1;
 pub const SOFTNESS: usize = 2;
-pub const OF_WHEEL: usize = 3;
+/// 1/W, of the nominal weight.
+pub const LIGHTNESS: usize = 3;
+pub const OF_WHEEL: usize = 4;
 
 /// A wheel leaves the modelled rail: at this place (m).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -256,17 +258,17 @@ fn law(crossing: &TrainCrossing, wheel: &TrainWheel) -> Law {
     }
 }
 
-/// W, δ_W, softness or G of the whole axle.
+/// W, δ_W, softness or G of the whole axle, 1/W.
 fn wheel_numbers(crossing: &TrainCrossing, wheel: &TrainWheel, law: Law) -> [f64; OF_WHEEL] {
     let weight = wheel.wheel.weight;
-    match law {
-        Law::Force => [weight, 0.0, 0.0],
+    let [compression, softness] = match law {
+        Law::Force => [0.0, 0.0],
         Law::Linear => {
             let softness = match (wheel.wheel.tyre_stiffness, crossing.contact) {
                 (Some(stiffness), _) | (None, Contact::Linear { stiffness }) => 1.0 / stiffness,
                 (None, Contact::Rigid | Contact::Hertz { .. }) => 0.0,
             };
-            [weight, weight * softness, softness]
+            [weight * softness, softness]
         }
         Law::Hertz => {
             let Contact::Hertz { constant } = crossing.contact else {
@@ -274,7 +276,8 @@ fn wheel_numbers(crossing: &TrainCrossing, wheel: &TrainWheel, law: Law) -> [f64
             };
             // F = 2 (δ/G)^(3/2).
             let axle = constant / 2f64.cbrt().powi(2);
-            [weight, axle * weight.cbrt().powi(2), axle]
+            [axle * weight.cbrt().powi(2), axle]
         }
-    }
+    };
+    [weight, compression, softness, 1.0 / weight]
 }
