@@ -236,5 +236,5 @@ fn every_choice_is_one_that_serde_knows() {
             }
         }
     }
-    assert_eq!(count, 64);
+    assert_eq!(count, 92);
 }
