@@ -1,5 +1,7 @@
 //! `dpim check`: what a scenario costs and whether its step is stable, before the work.
 
+pub(super) mod train;
+
 use super::Context;
 use super::random::{Leading, warnings};
 use super::source::Source;
@@ -180,7 +182,17 @@ fn simulation(
     if scenario.has("oscillator") {
         let chain = scenario.chain_at_any_step(&spec)?;
         oscillator(&chain, write);
-        recording(&spec, chain.times().len(), chain.steps, points, write);
+        let times = chain.times().len();
+        let work = (chain.steps, POINT_STEPS_PER_SECOND);
+        recording(&spec, times, work, points, write);
+        return Ok(());
+    }
+    if scenario.is_train() {
+        let crossing = scenario.train_crossing(&spec)?;
+        train::describe(&crossing, write);
+        let times = crossing.steps / crossing.record_every + 1;
+        let work = (crossing.steps, train::point_steps_per_second(&crossing));
+        recording(&spec, times, work, points, write);
         return Ok(());
     }
     let crossing = scenario.crossing_at_any_step(&spec)?;
@@ -215,7 +227,8 @@ fn simulation(
         };
         write(format!("  {:<17} {bound}{mark}", integrator.name()));
     }
-    recording(&spec, crossing.times().len(), crossing.steps, points, write);
+    let work = (crossing.steps, POINT_STEPS_PER_SECOND);
+    recording(&spec, crossing.times().len(), work, points, write);
     Ok(())
 }
 
@@ -223,7 +236,7 @@ fn simulation(
 fn recording(
     spec: &SimulationSpec,
     times: usize,
-    steps: usize,
+    (steps, per_second): (usize, f64),
     points: Option<usize>,
     write: &mut impl FnMut(String),
 ) {
@@ -238,7 +251,7 @@ fn recording(
     ));
     if let Some(points) = points {
         let steps = points as f64 * (steps + 1) as f64;
-        let seconds = steps / POINT_STEPS_PER_SECOND;
+        let seconds = steps / per_second;
         let held = points.next_multiple_of(LANES).min(band) * times * quantities * 8;
         write(format!(
             "  file: about {}",

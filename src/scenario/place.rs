@@ -43,7 +43,18 @@ impl Scenario {
         );
         match nearest(found, allowed()) {
             Some(meant) => error.remedy(format!("did you mean {meant:?}?")),
-            None => error.remedy(format!("known are {}", quoted(allowed()))),
+            None => {
+                // The same names again for each car would be too many.
+                let is_again = |name: &str| {
+                    name.starts_with("vehicle/car-") && !name.starts_with("vehicle/car-1/")
+                };
+                let first = quoted(allowed().filter(|name| !is_again(name)));
+                let more = match allowed().any(is_again) {
+                    true => ", and those of the other cars",
+                    false => "",
+                };
+                error.remedy(format!("known are {first}{more}"))
+            }
         }
     }
 

@@ -175,6 +175,11 @@ fn quoted(correlation: &CorrelationSpec) -> String {
 }
 
 impl Scenario {
+    /// Whether the number at `key` may differ between points.
+    pub fn can_be_random(&self, key: &str) -> bool {
+        keys::number(self, "random", key).is_ok()
+    }
+
     /// The table `table` with the means of its random numbers where it has none.
     pub(super) fn with_means<'s>(&self, table: &str, item: &'s Item) -> Result<Cow<'s, Item>> {
         if !can_be_random(table) {

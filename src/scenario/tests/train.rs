@@ -383,3 +383,36 @@ fn any_scalar_of_a_train_may_vary_but_for_places() {
         "{message}"
     );
 }
+
+#[test]
+fn values_of_points_are_held_to_the_bounds_of_a_trains_keys() {
+    let scenario = trailers(&[r#"track={ kind = "ballasted", preset = "zhai-2004-ballasted" }"#]);
+    let above = Some((1, "a number above 0 (kg)".to_owned()));
+    for key in ["vehicle.car.0.body_mass", "track.sleeper.mass"] {
+        assert!(scenario.can_be_random(key), "{key}");
+        assert_eq!(scenario.first_bad(key, &[1.0, -1.0]), above, "{key}");
+    }
+    // There is but one table of cars, and no slab.
+    for key in [
+        "vehicle.car.1.body_mass",
+        "track.slab.mass_per_length",
+        "vehicle.approach",
+    ] {
+        assert!(!scenario.can_be_random(key), "{key}");
+    }
+}
+
+#[test]
+fn of_many_cars_the_names_of_the_first_are_shown() {
+    let options = ["simulation.record=[\"nonsense\"]"];
+    let message = trailers(&options).train().unwrap_err().to_string();
+    assert!(
+        message.contains("\"vehicle/car-1/bogie-2/pitch/velocity\""),
+        "{message}"
+    );
+    assert!(
+        message.ends_with("and those of the other cars"),
+        "{message}"
+    );
+    assert!(!message.contains("car-2"), "{message}");
+}

@@ -4,12 +4,9 @@ use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
-use super::presets::CarPreset;
+use super::presets::{CarPreset, WHEEL_RADIUS};
 use super::{Misfit, statics};
 use crate::system::train::{Axle, Car, HalfCar, RailVehicle};
-
-/// The radius of a wheel where none is given: that of a new wheel of the Velaro and CRH3 trains (m).
-const WHEEL_RADIUS: f64 = 0.46;
 
 /// A car of a train; without a `kind` a `rail-vehicle`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

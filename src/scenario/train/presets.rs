@@ -5,6 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::system::train::{Ballast, Fastener, OnBridge, Rail, RailVehicle, Slab};
 
+/// The radius of a wheel where none is given: that of a new wheel of the Velaro and CRH3 trains (m).
+pub(super) const WHEEL_RADIUS: f64 = 0.46;
+
 /// A published set of values of a railway vehicle in the vertical plane; suspensions are of an axle and of a bogie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum CarPreset {
@@ -95,8 +98,8 @@ impl CarPreset {
                 secondary_damping,
                 bogie_spacing,
                 wheelbase,
-                // Not in the sources: see `wheel_radius`.
-                wheel_radius: f64::NAN,
+                // Not in the sources.
+                wheel_radius: WHEEL_RADIUS,
             },
             length,
         }
