@@ -41,6 +41,7 @@ pub mod files;
 pub mod integrate;
 pub mod interrupt;
 pub mod irregularity;
+pub mod judgement;
 mod memory;
 pub mod plot;
 pub mod probability;

@@ -11,6 +11,11 @@ pub trait System: Sync {
     /// The number of values recorded at each time.
     fn outputs(&self) -> usize;
 
+    /// The number of values a point at the end of its run.
+    fn point_outputs(&self) -> usize {
+        0
+    }
+
     /// What steps batches of points; each thread has its own.
     fn stepper(&self) -> Box<dyn Stepper + '_>;
 
@@ -20,7 +25,8 @@ pub trait System: Sync {
 
 /// Runs one batch after another, reusing its memory.
 pub trait Stepper {
-    /// Runs at most [`super::LANES`] points; the strip takes their rows `[record][output]`.
+    /// Runs at most [`super::LANES`] points; the strip takes their rows `[record][output]`, and its rows a
+    /// point their values at the end.
     ///
     /// # Errors
     /// The first lane that leaves all bounds.

@@ -25,6 +25,8 @@ mod evolution;
 mod exact;
 mod excitation;
 mod irregularity;
+mod judged;
+mod judgement;
 mod oscillator;
 mod overrides;
 mod place;
@@ -68,6 +70,8 @@ pub use irregularity::{
     DeterministicSpec, FieldKind, FilterForm, IrregularitySpec, ProfileSpec, SecondOrderFilterSpec,
     Sided, SineSpec, SpectrumSpec, SpectrumTableSpec, WavenumberSpec, WavenumberUnit,
 };
+pub use judged::JudgedSimulation;
+pub use judgement::{DirectionKind, FilterSpec, IndexKind, IndexSpec, WeightingKind, WindowSpec};
 pub use oscillator::{
     BoucWenSpec, InterpolationKind, LoadKind, OscillatorSpec, PowerLawSpec, RayleighSpec,
     StoreySpec, VanDerPolSpec,
