@@ -11,7 +11,7 @@
 //! the cutoff f_c (√2 − 1)^(−1/2n)). Far above the cutoff both together fall by 12 n dB an octave.
 //!
 //! Ends: the series goes on beyond each end as its image through the end's point, 2 y_0 − y_k, until what the
-//! start of a pass leaves behind has fallen to a millionth, or for the series' own length; each pass starts in
+//! start of a pass leaves behind has fallen to 1e-8, or for the series' own length; each pass starts in
 //! the steady state of its first value. So a constant stays as it is, exactly, and a straight line almost.
 //!
 //! Source: A. V. Oppenheim, R. W. Schafer, Discrete-Time Signal Processing, 3rd ed. (2010), §7.2 and exercise 5.53.
@@ -23,7 +23,7 @@ use std::ops::RangeInclusive;
 pub const ORDERS: RangeInclusive<u32> = 1..=8;
 
 /// What is left of a pass's start.
-const LEFT_BEHIND: f64 = 1e-6;
+const LEFT_BEHIND: f64 = 1e-8;
 
 /// The filter for one step.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,11 +61,12 @@ impl LowPass {
             Section::second_order(k, damping)
         });
         let single = (order % 2 == 1).then(|| Section::first_order(k));
-        // The slowest pole has the real part −ω sin(π/2n).
-        let decay = 2.0 * PI * cutoff * step * widened * (PI / (2.0 * n)).sin();
+        let sections: Vec<Section> = pairs.chain(single).collect();
+        let slowest = sections.iter().map(Section::largest_pole);
+        let left_a_sample = slowest.fold(f64::MIN_POSITIVE, f64::max);
         LowPass {
-            sections: pairs.chain(single).collect(),
-            beyond: (-LEFT_BEHIND.ln() / decay).ceil() as usize,
+            sections,
+            beyond: (LEFT_BEHIND.ln() / left_a_sample.ln()).ceil() as usize,
         }
     }
 
@@ -110,6 +111,17 @@ impl Section {
         Section {
             b: [b, b, 0.0],
             a: [(k - 1.0) / (k + 1.0), 0.0],
+        }
+    }
+
+    /// The larger absolute value of its two poles: what a sample leaves of the state.
+    fn largest_pole(&self) -> f64 {
+        let [a1, a2] = self.a;
+        let apart = 0.25 * a1 * a1 - a2;
+        if apart < 0.0 {
+            a2.sqrt()
+        } else {
+            0.5 * a1.abs() + apart.sqrt()
         }
     }
 

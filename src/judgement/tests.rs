@@ -43,7 +43,7 @@ fn a_filtered_sine_is_the_gain_times_the_sine_without_phase() {
                 }
                 for (y, x) in filtered.iter().zip(&series) {
                     // What the start of a pass leaves behind; the inner half is far from both ends.
-                    near(*y, gain * x, 1e-4);
+                    near(*y, gain * x, 1e-6);
                 }
                 let inner = count / 4..3 * count / 4;
                 for (y, x) in filtered[inner.clone()].iter().zip(&series[inner]) {
@@ -169,46 +169,46 @@ fn sperlings_filters_of_sines() {
 }
 
 /// ISO 2631-1:1997, table 3, from memory of the literature: thousand times the factors of W_k and W_d at the third
-/// octaves 10^(n/10) Hz. That of W_d at 10 Hz is not there.
+/// octaves' nominal frequencies. That of W_d at 10 Hz is not there.
 #[test]
 fn the_weightings_are_those_of_the_standards_table() {
     let table = [
-        (-3, 418.0, 853.0),
-        (-2, 459.0, 944.0),
-        (-1, 477.0, 992.0),
-        (0, 482.0, 1011.0),
-        (1, 484.0, 1008.0),
-        (2, 494.0, 968.0),
-        (3, 531.0, 890.0),
-        (4, 631.0, 776.0),
-        (5, 804.0, 642.0),
-        (6, 967.0, 512.0),
-        (7, 1039.0, 409.0),
-        (8, 1054.0, 323.0),
-        (9, 1036.0, 253.0),
-        (10, 988.0, f64::NAN),
-        (11, 902.0, 161.0),
-        (12, 768.0, 125.0),
-        (13, 636.0, 100.0),
-        (14, 513.0, 80.0),
-        (15, 405.0, 63.2),
-        (16, 314.0, 49.4),
-        (17, 246.0, 38.8),
-        (18, 186.0, 29.5),
-        (19, 132.0, 21.1),
+        (0.5, 418.0, 853.0),
+        (0.63, 459.0, 944.0),
+        (0.8, 477.0, 992.0),
+        (1.0, 482.0, 1011.0),
+        (1.25, 484.0, 1008.0),
+        (1.6, 494.0, 968.0),
+        (2.0, 531.0, 890.0),
+        (2.5, 631.0, 776.0),
+        (3.15, 804.0, 642.0),
+        (4.0, 967.0, 512.0),
+        (5.0, 1039.0, 409.0),
+        (6.3, 1054.0, 323.0),
+        (8.0, 1036.0, 253.0),
+        (10.0, 988.0, f64::NAN),
+        (12.5, 902.0, 161.0),
+        (16.0, 768.0, 125.0),
+        (20.0, 636.0, 100.0),
+        (25.0, 513.0, 80.0),
+        (31.5, 405.0, 63.2),
+        (40.0, 314.0, 49.4),
+        (50.0, 246.0, 38.8),
+        (63.0, 186.0, 29.5),
+        (80.0, 132.0, 21.1),
     ];
     let mut worst = 0f64;
-    for (band, vertical, horizontal) in table {
-        let frequency = 10f64.powf(f64::from(band) / 10.0);
+    for (frequency, vertical, horizontal) in table {
         for (weighting, printed) in [(Weighting::Wk, vertical), (Weighting::Wd, horizontal)] {
             if printed.is_nan() {
                 continue;
             }
             let factor = 1000.0 * weighting.squared(frequency).sqrt();
-            worst = worst.max((factor / printed - 1.0).abs());
+            worst = worst.max((factor - printed).abs());
         }
     }
-    assert!(worst < 0.01, "{worst}");
+    // Half of the last digit, and a little for what the standard rounds before.
+    assert!(worst < 0.75, "{worst}");
 }
 
 #[test]

@@ -279,6 +279,7 @@ fn exact_cases_have_their_times() {
     let options = [
         "exact.times=",
         "simulation.duration=0.07",
+        "simulation.index=",
         "simulation.time_step=0.01",
     ];
     let scenario = scenario.set(&sets(&options)).unwrap();
