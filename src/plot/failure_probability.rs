@@ -293,6 +293,33 @@ mod tests {
     }
 
     #[test]
+    fn a_limit_on_a_value_a_point_is_a_level_line() {
+        let frame = |start, end| {
+            let area = Rectangle {
+                left: 10.0,
+                top: 0.0,
+                width: 100.0,
+                height: 50.0,
+            };
+            let x = Axis::linear(TIME_LABEL, start, end);
+            Frame::new(area, x, Axis::linear("P", 0.0, 1.0))
+        };
+        let level = points(&frame(0.0, 2.0), &[2.0], &[0.5]);
+        assert_eq!(level, [(10.0, 25.0), (110.0, 25.0)]);
+        // Alone and beside a limit on a history.
+        let single = FailureCurve {
+            times: &[2.0],
+            ..curve("a", &[0.5], [&[0.4], &[0.6]])
+        };
+        let other = curve("b", &[0.0, 0.1, 0.2], [&[], &[]]);
+        for curves in [vec![single], vec![single, other]] {
+            let figure = FailureProbability { curves: &curves };
+            let svg = figure.draw(&Page::new("", "")).unwrap().svg;
+            assert!(!svg.contains("NaN") && !svg.contains("inf"));
+        }
+    }
+
+    #[test]
     fn many_limits_make_the_page_higher() {
         let names = ["a", "b", "c", "d", "e"];
         let curves = names.map(|name| curve(name, &[0.0, 0.1, 0.2], [&[], &[]]));
