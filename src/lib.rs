@@ -5,13 +5,13 @@
 //! ```text
 //! scenario -> probability (points) -> irregularity (a profile a point) -> points file
 //! scenario -> probability (points) -> excitation (a process a point) -> points file
-//! points file -> ensemble (system + integrate, many points in lockstep) -> recording
+//! points file -> ensemble (system + integrate, many points in lockstep; judgement of each) -> recording
 //! recording -> density, reliability -> tables -> plot
 //! two tables of densities (one may be exact) -> comparison -> table -> plot
 //! ```
 //!
 //! Stages meet in files only ([`files`]); the domain ([`probability`], [`irregularity`],
-//! [`excitation`], [`system`], [`integrate`], [`ensemble`], [`density`], [`reliability`], [`exact`],
+//! [`excitation`], [`system`], [`integrate`], [`ensemble`], [`judgement`], [`density`], [`reliability`], [`exact`],
 //! [`comparison`]) opens none.
 //!
 //! # Conventions
@@ -41,6 +41,7 @@ pub mod files;
 pub mod integrate;
 pub mod interrupt;
 pub mod irregularity;
+pub mod judgement;
 mod memory;
 pub mod plot;
 pub mod probability;

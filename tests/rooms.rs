@@ -4,13 +4,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const DOMAIN: [&str; 11] = [
+const DOMAIN: [&str; 12] = [
     "probability",
     "irregularity",
     "excitation",
     "system",
     "integrate",
     "ensemble",
+    "judgement",
     "density",
     "reliability",
     "response",

@@ -45,7 +45,10 @@ pub(super) fn run(context: &Context, args: &cli::Check) -> Result<()> {
     super::print(&text)?;
     // Last, so that all of the above is seen before the verdict.
     if scenario.has("simulation") {
-        super::model::Model::read(&scenario)?;
+        let judged = scenario.judged()?;
+        let simulated = super::judged::simulated(&scenario, judged.as_ref());
+        let (_, quantities) = super::model::Model::read(simulated)?;
+        super::judged::recorded(judged.as_ref(), &quantities)?;
     }
     Ok(())
 }
@@ -240,7 +243,7 @@ fn recording(
     points: Option<usize>,
     write: &mut impl FnMut(String),
 ) {
-    let quantities = spec.record.len();
+    let quantities = spec.record.len() + spec.filter.len();
     let bytes = match spec.precision {
         Precision::F64 => 8,
         Precision::F32 => 4,
@@ -249,6 +252,9 @@ fn recording(
     write(format!(
         "recording: {quantities} quantities at {times} times, blocks of {block} points, bands of {band}"
     ));
+    if !spec.index.is_empty() {
+        write(format!("  and {} values a point", spec.index.len()));
+    }
     if let Some(points) = points {
         let steps = points as f64 * (steps + 1) as f64;
         let seconds = steps / per_second;

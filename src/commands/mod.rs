@@ -8,6 +8,7 @@ mod exact;
 mod excitation;
 mod excite;
 mod inspect;
+mod judged;
 mod model;
 mod plot;
 mod progress;

@@ -55,15 +55,12 @@ pub(super) fn run(context: &Context, args: &cli::Reliability) -> Result<()> {
         }
         None => None,
     };
-    let source = Source {
-        recordings: &recordings,
-        times: recordings.times(),
-    };
-    let results = first_passage(&source, &limits, options)?;
+    let results = all_passages(&recordings, &limits, options)?;
     for (limit, result) in limits.iter().zip(&results) {
-        append(&mut table, limit, result, recordings.times())?;
+        let times = recordings.times_of(limit.quantity);
+        append(&mut table, limit, result, times)?;
         if let (Some(table), Some(curve), Some(end)) =
-            (&mut extremes, &result.extreme, recordings.times().last())
+            (&mut extremes, &result.extreme, times.last())
         {
             let nodes: Vec<f64> = (0..curve.nodes.count)
                 .map(|j| curve.nodes.value(j))
@@ -78,23 +75,49 @@ pub(super) fn run(context: &Context, args: &cli::Reliability) -> Result<()> {
     table.finish()
 }
 
+/// The results of all limits, in their order: those of values a point, such as indices, have a time of their own.
+fn all_passages(
+    recordings: &Recordings,
+    limits: &[Limit],
+    options: Options,
+) -> Result<Vec<LimitResult>> {
+    let mut results: Vec<Option<LimitResult>> = vec![None; limits.len()];
+    let of_axis = |axis: Axis| {
+        let is_of_axis = move |limit: &Limit| recordings.quantities()[limit.quantity].axis == axis;
+        (0..limits.len()).filter(move |k| is_of_axis(&limits[*k]))
+    };
+    for axis in [Axis::Time, Axis::Point] {
+        let places: Vec<usize> = of_axis(axis).collect();
+        let Some(first) = places.first() else {
+            continue;
+        };
+        let own: Vec<Limit> = places.iter().map(|k| limits[*k].clone()).collect();
+        let source = Source {
+            recordings,
+            times: recordings.times_of(limits[*first].quantity),
+        };
+        for (place, result) in places.iter().zip(first_passage(&source, &own, options)?) {
+            results[*place] = Some(result);
+        }
+    }
+    Ok(results.into_iter().flatten().collect())
+}
+
 fn limits(
     recordings: &Recordings,
     scenario: &Scenario,
     spec: &ReliabilitySpec,
 ) -> Result<Vec<Limit>> {
-    let over_time: Vec<&str> = recordings
+    let names: Vec<&str> = recordings
         .quantities()
         .iter()
-        .filter(|q| q.axis == Axis::Time)
         .map(|q| q.name.as_str())
         .collect();
     let mut limits = Vec::new();
     for (number, limit) in spec.limit.iter().enumerate() {
         let key = format!("reliability.limit.{number}.quantity");
-        let known = over_time.contains(&limit.quantity.as_str());
-        let Some(quantity) = recordings.quantity(&limit.quantity).filter(|_| known) else {
-            let expected = format!("a quantity of the recording ({})", over_time.join(", "));
+        let Some(quantity) = recordings.quantity(&limit.quantity) else {
+            let expected = format!("a quantity of the recording ({})", names.join(", "));
             return Err(scenario
                 .bad(&key, expected, format!("{:?}", limit.quantity))
                 .remedy("record it (simulation.record) or take the limit out")

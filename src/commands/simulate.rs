@@ -1,15 +1,15 @@
 //! `dpim simulate`: one deterministic run a point, in lockstep, band by band.
 
 use super::Context;
+use super::judged::{self, Recorded};
 use super::model::Model;
 use crate::cli;
-use crate::ensemble::{Divergence, Points, Stepper, Strip, System};
+use crate::ensemble::{Divergence, Judged, Points, Stepper, Strip, System};
 use crate::files::points::{PointsReader, ReadBatch};
 use crate::files::recording::{
-    self, Axis, Band, QuantityHeader, RecordingHeader, RecordingWriter, band_layout,
+    self, Band, QuantityHeader, RecordingHeader, RecordingWriter, band_layout,
 };
 use crate::files::{Kind, OutputFile, Provenance, Weights};
-use crate::quantity::Quantity;
 use crate::scenario::{
     self, Compression, ContactSpec, Precision, Scenario, SimulationSpec, VehicleSpec,
 };
@@ -25,7 +25,13 @@ pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
     )?;
     let scenario = args.scenario.load()?;
     let simulation = scenario.simulation()?;
-    let (model, quantities) = Model::read(&scenario)?;
+    let judged = scenario.judged()?;
+    let simulated = judged::simulated(&scenario, judged.as_ref());
+    let (model, quantities) = Model::read(simulated)?;
+    let Recorded {
+        headers,
+        judgements,
+    } = judged::recorded(judged.as_ref(), &quantities)?;
     if let Some(note) = model.note() {
         context.note(note);
     }
@@ -39,8 +45,11 @@ pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
             args.points.display()
         ));
     }
-    let system = model.system(&scenario, &quantities, &args.points, &reader)?;
-    let header = header(&scenario, &simulation, &quantities, &reader, &range, args);
+    let mut system = model.system(simulated, &quantities, &args.points, &reader)?;
+    if let Some(judgements) = judgements {
+        system = Box::new(Judged::new(system, judgements));
+    }
+    let header = header(&scenario, &simulation, headers, &reader, &range, args);
     let output = OutputFile::create(&args.output.output, !args.output.no_clobber)?;
     let writer = RecordingWriter::create(output, &header)?;
     let run = Run {
@@ -115,7 +124,7 @@ fn checked_range(args: &cli::Simulate, count: u32) -> Result<Range<u32>> {
 fn header(
     scenario: &Scenario,
     simulation: &SimulationSpec,
-    quantities: &[Quantity],
+    quantities: Vec<QuantityHeader>,
     reader: &PointsReader,
     range: &Range<u32>,
     args: &cli::Simulate,
@@ -128,16 +137,7 @@ fn header(
         .map(|r| format!("points {}..{}", r.start, r.end))
         .collect();
     RecordingHeader {
-        quantities: quantities
-            .iter()
-            .map(|quantity| QuantityHeader {
-                name: quantity.name(),
-                unit: quantity.unit().to_owned(),
-                description: quantity.description(),
-                symbol: quantity.symbol(),
-                axis: Axis::Time,
-            })
-            .collect(),
+        quantities,
         weights: points.weights,
         points_total: points.count,
         first_point: range.start,
@@ -177,12 +177,19 @@ struct Run<'a> {
 struct Filled {
     points: Range<u32>,
     values: Vec<f64>,
+    /// `[block][value a point][point]`.
+    point_values: Vec<f64>,
 }
 
 impl Run<'_> {
     /// Rows of a point: times and quantities.
     fn rows(&self) -> usize {
         self.times.len() * self.system.outputs()
+    }
+
+    /// Values a point at the end of its run.
+    fn point_rows(&self) -> usize {
+        self.system.point_outputs()
     }
 
     /// Reads on one thread, steps on all, writes on another.
@@ -209,17 +216,26 @@ impl Run<'_> {
                 };
                 let mut values = spare.unwrap_or_else(|| memory::zeros(size));
                 values.resize(size, 0.0);
+                let mut point_values = vec![0.0; points.len() * self.point_rows()];
+                let mut rest = point_values.as_mut_slice();
                 stepped = values
                     .chunks_mut(block * self.rows())
                     .try_for_each(|values| {
                         interrupt::check()?;
                         let batch = batches.recv().unwrap_or(Err(Error::Interrupted))?;
-                        self.step(&batch, values)?;
+                        let own = batch.count * self.point_rows();
+                        let a_point = rest.split_off_mut(..own).expect("a value for each");
+                        self.step(&batch, values, a_point)?;
                         bar.inc(batch.count as u64);
                         let _ = used.try_send(batch);
                         Ok(())
                     });
-                if stepped.is_err() || full.send(Filled { points, values }).is_err() {
+                let filled = Filled {
+                    points,
+                    values,
+                    point_values,
+                };
+                if stepped.is_err() || full.send(filled).is_err() {
                     break;
                 }
             }
@@ -271,14 +287,19 @@ impl Run<'_> {
         emptied: &SyncSender<Vec<f64>>,
     ) -> Result<RecordingWriter> {
         let probability = &self.reader.header().probability;
-        for Filled { points, values } in bands {
+        for filled in bands {
+            let Filled {
+                points,
+                values,
+                point_values,
+            } = filled;
             writer.write_band(&Band {
                 first_point: points.start,
                 block,
                 times: &self.times,
                 probability: &probability[points.start as usize..points.end as usize],
                 values: &values,
-                point_values: &[],
+                point_values: &point_values,
             })?;
             // Never wait for the other side to take the memory back: at the end it does not.
             let _ = emptied.try_send(values);
@@ -286,8 +307,8 @@ impl Run<'_> {
         Ok(writer)
     }
 
-    /// One block: `[time][quantity][point]` of its points.
-    fn step(&self, batch: &ReadBatch, values: &mut [f64]) -> Result<()> {
+    /// One block: `[time][quantity][point]` of its points, and their values `[value][point]` at the end.
+    fn step(&self, batch: &ReadBatch, values: &mut [f64], a_point: &mut [f64]) -> Result<()> {
         let (excitation, samples): (&[f64], usize) = match self.component {
             Some(component) => (
                 &batch.irregularity[component],
@@ -302,7 +323,7 @@ impl Run<'_> {
             range: 0..batch.count,
         };
         let outcomes: Vec<Result<(), (usize, Divergence)>> =
-            Strip::cut(values, batch.count, self.system.group())
+            Strip::cut_both(values, a_point, batch.count, self.system.group())
                 .into_par_iter()
                 .enumerate()
                 .map_init(
@@ -338,8 +359,10 @@ impl Run<'_> {
         strip: &mut Strip<'_>,
     ) -> Result<(), (usize, Divergence)> {
         let width = strip.width();
-        scratch.resize(self.rows() * width, 0.0);
-        let batches = Strip::cut(scratch, width, self.system.lanes()).into_iter();
+        let rows = self.rows();
+        scratch.resize((rows + self.point_rows()) * width, 0.0);
+        let (over_time, a_point) = scratch.split_at_mut(rows * width);
+        let batches = Strip::cut_both(over_time, a_point, width, self.system.lanes()).into_iter();
         for (number, mut part) in batches.enumerate() {
             let first = number * self.system.lanes();
             let lanes = points.part(first..first + part.width());
@@ -348,7 +371,11 @@ impl Run<'_> {
                 .map_err(|divergence| (first + divergence.lane, divergence))?;
         }
         for (row, values) in scratch.chunks_exact(width).enumerate() {
-            strip.row(row).copy_from_slice(values);
+            let whole = match row.checked_sub(rows) {
+                None => strip.row(row),
+                Some(row) => strip.point_row(row),
+            };
+            whole.copy_from_slice(values);
         }
         Ok(())
     }

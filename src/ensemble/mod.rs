@@ -8,6 +8,7 @@
 mod batch;
 mod chain;
 mod crossing;
+mod judged;
 mod kernel;
 mod lanes;
 mod maps;
@@ -23,6 +24,7 @@ mod vehicle;
 pub use batch::{Batch, Divergence};
 pub use chain::Chains;
 pub use crossing::{CrossingOf, Crossings};
+pub use judged::{FilteredHistory, Judged, JudgedValue, Judgements};
 pub use lanes::LANES;
 pub use path::WheelPath;
 pub use strip::Strip;

@@ -22,6 +22,11 @@ pub trait System: Sync {
         6 * self.lanes()
     }
 
+    /// The number of values a point at the end of its run.
+    fn point_outputs(&self) -> usize {
+        0
+    }
+
     /// What steps batches of points; each thread has its own.
     fn stepper(&self) -> Box<dyn Stepper + '_>;
 
@@ -31,7 +36,8 @@ pub trait System: Sync {
 
 /// Runs one batch after another, reusing its memory.
 pub trait Stepper {
-    /// Runs at most [`System::lanes`] points; the strip takes their rows `[record][output]`.
+    /// Runs at most [`System::lanes`] points; the strip takes their rows `[record][output]`, and its rows a
+    /// point their values at the end.
     ///
     /// # Errors
     /// The first lane that leaves all bounds.

@@ -15,7 +15,7 @@ use crate::Result;
 pub struct FailureCurve<'a> {
     pub limit: &'a str,
     pub method: &'a str,
-    /// s, ascending.
+    /// s, ascending; a single one for a limit on one value a point, drawn as a level line.
     pub times: &'a [f64],
     pub failure_probability: &'a [f64],
     /// Confidence bounds of `failure_probability`, one for each time; both empty for none.
@@ -65,7 +65,11 @@ impl FailureProbability<'_> {
             .curves
             .iter()
             .flat_map(|curve| curve.times.iter().copied());
-        let (start, end) = range(times);
+        let (mut start, end) = range(times);
+        if start == end {
+            // No limit but on values a point: the run ends with them.
+            start = f64::min(0.0, end - 1.0);
+        }
         let (mut canvas, room) = page.start(&[], &self.legend());
         let height = (room.height - BOTTOM_MARGIN - (count - 1.0) * NAME) / count - FIRST;
         let margins = plots.iter().map(|plot| left_margin(&plot.axis, height));
@@ -109,7 +113,7 @@ impl FailureProbability<'_> {
     fn check(&self) -> Result<()> {
         check::at_least(PICTURE, "curves", 1, self.curves.len())?;
         for curve in self.curves {
-            check::at_least(PICTURE, "times", 2, curve.times.len())?;
+            check::at_least(PICTURE, "times", 1, curve.times.len())?;
             check::ascending(PICTURE, "times", curve.times)?;
             let count = curve.times.len();
             check::same_length(
@@ -223,6 +227,11 @@ fn axis(curves: &[&FailureCurve<'_>]) -> Axis {
 }
 
 fn points(frame: &Frame, times: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
+    if let ([time], [value]) = (times, values) {
+        let (_, y) = frame.point(*time, *value);
+        let Rectangle { left, width, .. } = frame.area;
+        return vec![(left, y), (left + width, y)];
+    }
     thinned(
         times
             .iter()
@@ -281,6 +290,33 @@ mod tests {
         let svg = figure.draw(&Page::new("", "")).unwrap().svg;
         assert!(svg.contains("a (no failure at any time)"));
         assert!(!svg.contains("b (no failure"));
+    }
+
+    #[test]
+    fn a_limit_on_a_value_a_point_is_a_level_line() {
+        let frame = |start, end| {
+            let area = Rectangle {
+                left: 10.0,
+                top: 0.0,
+                width: 100.0,
+                height: 50.0,
+            };
+            let x = Axis::linear(TIME_LABEL, start, end);
+            Frame::new(area, x, Axis::linear("P", 0.0, 1.0))
+        };
+        let level = points(&frame(0.0, 2.0), &[2.0], &[0.5]);
+        assert_eq!(level, [(10.0, 25.0), (110.0, 25.0)]);
+        // Alone and beside a limit on a history.
+        let single = FailureCurve {
+            times: &[2.0],
+            ..curve("a", &[0.5], [&[0.4], &[0.6]])
+        };
+        let other = curve("b", &[0.0, 0.1, 0.2], [&[], &[]]);
+        for curves in [vec![single], vec![single, other]] {
+            let figure = FailureProbability { curves: &curves };
+            let svg = figure.draw(&Page::new("", "")).unwrap().svg;
+            assert!(!svg.contains("NaN") && !svg.contains("inf"));
+        }
     }
 
     #[test]

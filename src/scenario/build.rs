@@ -321,7 +321,7 @@ impl Scenario {
 
     /// The number of steps of a run.
     pub(super) fn steps(&self, simulation: &SimulationSpec) -> Result<usize> {
-        let steps = (simulation.duration / simulation.time_step * (1.0 + 1e-12)).floor();
+        let steps = simulation.steps();
         if steps > MOST_STEPS {
             let expected = format!("at most {MOST_STEPS} steps in simulation.duration");
             let error = self.bad("simulation.time_step", expected, steps.to_string());

@@ -25,6 +25,8 @@ mod evolution;
 mod exact;
 mod excitation;
 mod irregularity;
+mod judged;
+mod judgement;
 mod oscillator;
 mod overrides;
 mod place;
@@ -70,6 +72,8 @@ pub use irregularity::{
     ContactPatchSpec, DeterministicSpec, FieldKind, IrregularitySpec, MovingAverageSpec,
     ProfileSpec, SineSpec, WavelengthSpec, WavenumberSpec, WindowSpec,
 };
+pub use judged::JudgedSimulation;
+pub use judgement::{DirectionKind, FilterSpec, IndexKind, IndexSpec, WeightingKind, WindowSpec};
 pub use oscillator::{
     BoucWenSpec, InterpolationKind, LoadKind, OscillatorSpec, PowerLawSpec, RayleighSpec,
     StoreySpec, VanDerPolSpec,

@@ -35,6 +35,7 @@ impl Scenario {
         allowed: &[S],
     ) -> BadInput {
         let allowed = || allowed.iter().map(AsRef::as_ref);
+        let key = &self.asking_key(key, found);
         let error = BadInput::new(
             self.place_of_text(key, found),
             key,

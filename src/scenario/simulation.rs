@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Scenario, ScenarioSpec, Table};
+use super::suggestion::quoted;
+use super::{FilterSpec, IndexSpec, Scenario, ScenarioSpec, Table};
 use crate::BadInput;
 
 /// How the equations of motion are integrated, and what of it is kept.
@@ -27,6 +28,12 @@ pub struct SimulationSpec {
     /// Names of the quantities to record, such as `bridge/midspan/displacement`.
     #[schemars(length(min = 1), extend("uniqueItems" = true))]
     pub record: Vec<String>,
+    /// Filtered histories, recorded beside `record` as `QUANTITY/filtered`.
+    #[serde(default)]
+    pub filter: Vec<FilterSpec>,
+    /// Judgements of a history, one value a point each, recorded as `index/NAME`.
+    #[serde(default)]
+    pub index: Vec<IndexSpec>,
     /// Acceleration of gravity (m/s2).
     #[serde(default = "default_gravity")]
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -109,7 +116,14 @@ impl Table for SimulationSpec {
                 format!("{:?}", self.duration),
             ));
         }
-        Ok(())
+        self.check_judgements(scenario)
+    }
+}
+
+impl SimulationSpec {
+    /// The number of steps of a run.
+    pub(super) fn steps(&self) -> f64 {
+        (self.duration / self.time_step * (1.0 + 1e-12)).floor()
     }
 }
 
@@ -129,11 +143,20 @@ impl Scenario {
         let limits = all.reliability.iter().flat_map(|r| &r.limit).enumerate();
         let limits =
             limits.map(|(k, limit)| (format!("reliability.limit.{k}.quantity"), &limit.quantity));
+        let added = simulation.added();
+        let expected = if added.is_empty() {
+            "a quantity of simulation.record".to_owned()
+        } else {
+            format!(
+                "a quantity of simulation.record, or {}",
+                quoted(added.iter().map(String::as_str))
+            )
+        };
         for (key, name) in densities.chain(limits) {
-            if !simulation.record.contains(name) {
+            if !simulation.record.contains(name) && !added.contains(name) {
                 let found = format!("{name:?}");
                 return Err(self
-                    .bad(&key, "a quantity of simulation.record", found)
+                    .bad(&key, expected, found)
                     .remedy("record it or leave it out here"));
             }
         }

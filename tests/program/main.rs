@@ -14,6 +14,7 @@ mod foreign;
 mod growth;
 mod harness;
 mod interruption;
+mod judgements;
 mod known_points;
 mod oscillator;
 mod pseudo_excitation;

@@ -101,6 +101,10 @@ fn smoothing_in_words(spec: SmoothingSpec) -> String {
 
 pub(super) fn heat_map(args: &cli::Plot) -> Result<Image> {
     let chosen = Chosen::read(args)?;
+    if args.figure.is_none() && chosen.slices().count() == 1 {
+        // One value a point has one density.
+        return slices(args);
+    }
     HeatMap {
         label: chosen.axis().label(),
         densities: &chosen.densities(),

@@ -163,7 +163,7 @@ impl Axis {
             .next()
             .map(|c| c.to_uppercase().chain(letters).collect())
             .unwrap_or_default();
-        let symbol = Quantity::named(name)
+        let symbol = Quantity::named(name.strip_suffix("/filtered").unwrap_or(name))
             .map(|q| q.symbol())
             .unwrap_or_default();
         Axis {

@@ -5,7 +5,6 @@ use crate::Result;
 use crate::cli;
 use crate::files::tables::{ReliabilityRow, read_reliability};
 use crate::plot::{FailureCurve, FailureProbability, with_unit};
-use crate::quantity::Quantity;
 use crate::scenario::{LimitKind, LimitSpec, ReliabilitySpec, Scenario};
 
 /// A limit by a method, in columns.
@@ -39,9 +38,10 @@ pub(super) fn failure_probability(args: &cli::Plot) -> Result<Image> {
         .and_then(|p| p.scenario.as_deref())
         .and_then(|text| Scenario::from_text("scenario", text).ok())
         .and_then(|scenario| scenario.reliability().ok());
+    let unit = |limit: &str| table.units.get(limit).map_or("", String::as_str);
     let names: Vec<String> = columns
         .iter()
-        .map(|c| in_words(&c.limit, spec.as_ref()))
+        .map(|c| in_words(&c.limit, unit(&c.limit), spec.as_ref()))
         .collect();
     let curves: Vec<FailureCurve<'_>> = columns
         .iter()
@@ -68,7 +68,7 @@ pub(super) fn failure_probability(args: &cli::Plot) -> Result<Image> {
 }
 
 /// A limit as `deflection: |bridge/midspan/displacement| > 95.5 mm`, where the scenario knows it.
-fn in_words(name: &str, spec: Option<&ReliabilitySpec>) -> String {
+fn in_words(name: &str, unit: &str, spec: Option<&ReliabilitySpec>) -> String {
     let limit = spec.and_then(|spec| spec.limit.iter().find(|limit| limit.name == name));
     let Some(LimitSpec {
         quantity,
@@ -79,7 +79,6 @@ fn in_words(name: &str, spec: Option<&ReliabilitySpec>) -> String {
     else {
         return name.to_owned();
     };
-    let unit = Quantity::named(quantity).map_or("", |quantity| quantity.unit());
     let threshold = with_unit(*threshold, unit);
     match kind {
         LimitKind::Absolute => format!("{name}: |{quantity}| > {threshold}"),

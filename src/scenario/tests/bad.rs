@@ -19,6 +19,10 @@ fn read_all(name: &str, text: &str) -> Result<()> {
     scenario.bridge()?;
     scenario.vehicle()?;
     scenario.simulation()?;
+    if let Some(judged) = scenario.judged()? {
+        let (_, quantities) = judged.scenario.crossing()?;
+        judged.build(&quantities)?;
+    }
     scenario.density()?;
     scenario.reliability()?;
     scenario.exact()?;

@@ -72,10 +72,17 @@ bump_stop = { gap = 0.05, stiffness = 1e6 }
 [simulation]
 integrator = "exponential"
 time_step = 0.01
-duration = 0.01
+duration = 4
 record_every = 2
 initial_state = "profile"
 record = ["bridge/quarter/stress"]
+filter = [{ quantity = "vehicle/wheel/contact_force", low_pass = 20, order = 2 }]
+index = [
+    { name = "comfort", kind = "sperling", quantity = "vehicle/body/acceleration", window = { from = 1, to = 3.5 }, low_pass = 40, direction = "lateral" },
+    { name = "weighted", kind = "weighted-rms", quantity = "vehicle/body/acceleration", weighting = "w-d" },
+    { name = "unloading", kind = "unloading-ratio", quantity = "vehicle/wheel/contact_force", static_force = 122625 },
+    { name = "impact", kind = "impact-factor", quantity = "bridge/midspan/displacement", static_response = -0.06 },
+]
 gravity = 9.80665
 precision = "f32"
 compression = "zstd"
@@ -306,6 +313,7 @@ fn exact_cases_have_their_times() {
     let options = [
         "exact.times=",
         "simulation.duration=0.07",
+        "simulation.index=",
         "simulation.time_step=0.01",
     ];
     let scenario = scenario.set(&sets(&options)).unwrap();

@@ -152,6 +152,7 @@ fn every_key_is_described_and_every_number_has_its_unit() {
         ".reliability.smoothing.width",
         ".correlation.coefficient",
         ".vehicle.suspension_damping_ratio",
+        ".simulation.index.static_response",
     ];
     // These have the unit of the random parameter.
     let of_any_unit = ".random.distribution.";
@@ -224,6 +225,13 @@ fn every_choice_is_one_that_serde_knows() {
                 ".simulation.initial_state" => read::<InitialState>(json),
                 ".simulation.precision" => read::<Precision>(json),
                 ".simulation.compression" => read::<Compression>(json),
+                ".simulation.index.kind" => {
+                    read::<IndexKind>(json.clone());
+                    let kind: IndexKind = serde_json::from_value(json).unwrap();
+                    assert_eq!(kind.name(), choice);
+                }
+                ".simulation.index.direction" => read::<DirectionKind>(json),
+                ".simulation.index.weighting" => read::<WeightingKind>(json),
                 ".random.distribution.extreme" => read::<ExtremeKind>(json),
                 ".random.distribution.rows" => read::<RowsKind>(json),
                 ".correlation.of" => read::<CorrelationKind>(json),
@@ -247,5 +255,5 @@ fn every_choice_is_one_that_serde_knows() {
             }
         }
     }
-    assert_eq!(count, 106);
+    assert_eq!(count, 121);
 }
