@@ -33,8 +33,71 @@ impl Bins {
         self.spacing
     }
 
+    /// The number of nodes.
+    pub fn len(&self) -> usize {
+        self.masses.len()
+    }
+
+    /// Widens the range to hold least ... largest with a node to spare on either side; with twice the
+    /// spacing, as often as it takes, where that were more than `most` nodes.
+    pub fn reach(&mut self, least: f64, largest: f64, most: usize) {
+        let place = |bins: &Bins, value: f64| (value - bins.origin) / bins.spacing;
+        loop {
+            let before = (1.0 - place(self, least)).max(0.0).ceil();
+            let after = (place(self, largest) + 2.0 - self.len() as f64)
+                .max(0.0)
+                .ceil();
+            if before + after == 0.0 {
+                return;
+            }
+            if self.len() as f64 + before + after > most as f64 && self.len() > 4 {
+                self.coarsen();
+                continue;
+            }
+            // A part more, so that it is seldom done.
+            let spare = (most.saturating_sub(self.len()) as f64 - before - after).max(0.0);
+            let more = (self.len() / 4).min((spare / 2.0) as usize);
+            let before = if before > 0.0 {
+                before as usize + more
+            } else {
+                0
+            };
+            let after = if after > 0.0 {
+                after as usize + more
+            } else {
+                0
+            };
+            let mut masses = vec![0.0; before + self.len() + after];
+            masses[before..before + self.len()].copy_from_slice(&self.masses);
+            self.origin -= before as f64 * self.spacing;
+            self.masses = masses;
+            return;
+        }
+    }
+
+    /// Doubles the spacing: the mass of every other node is halved between its neighbours. That is what
+    /// sharing among the wider nodes had given at once, since its shares are linear in between.
+    pub fn coarsen(&mut self) {
+        let fine = &self.masses;
+        let at = |j: usize| fine.get(j).copied().unwrap_or(0.0);
+        let masses = (0..fine.len() / 2 + 1).map(|j| {
+            let before = if j > 0 { at(2 * j - 1) } else { 0.0 };
+            at(2 * j) + 0.5 * (before + at(2 * j + 1))
+        });
+        self.masses = masses.collect();
+        self.spacing *= 2.0;
+    }
+
     /// Shares values, all between least and largest, among the nodes.
     pub fn add(&mut self, values: &[f64], probability: &[f64]) {
+        pulp::Arch::new().dispatch(
+            #[inline(always)]
+            || self.add_wide(values, probability),
+        );
+    }
+
+    #[inline(always)]
+    fn add_wide(&mut self, values: &[f64], probability: &[f64]) {
         /// Values whose places are found side by side.
         const WIDE: usize = 16;
         let (origin, scale) = (self.origin, 1.0 / self.spacing);

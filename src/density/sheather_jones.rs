@@ -141,6 +141,14 @@ impl Series {
     /// f_s at time t. The exponentials follow from each other,
     /// e^(−(k+n)² c) = e^(−k² c) e^(−(2kn + n²) c), n the terms side by side.
     fn derivative_norm(&self, order: i32, time: f64) -> f64 {
+        pulp::Arch::new().dispatch(
+            #[inline(always)]
+            || self.derivative_norm_wide(order, time),
+        )
+    }
+
+    #[inline(always)]
+    fn derivative_norm_wide(&self, order: i32, time: f64) -> f64 {
         let c = PI * PI * time;
         let weighted = &self.weighted[(order - 2) as usize];
         // Beyond it the terms are below 1e-30 of the largest.

@@ -58,6 +58,8 @@ impl PowerSums {
     fn add_wide(&mut self, values: &[f64], probability: &[f64]) {
         /// Sums that run side by side, for the vector units.
         const WIDE: usize = 16;
+        /// Of these at a time: as many as the registers hold.
+        const AT_A_TIME: usize = 4;
         if self.shift.is_nan() {
             self.shift = values.first().copied().unwrap_or(f64::NAN);
         }
@@ -67,23 +69,31 @@ impl PowerSums {
         let mut largest = [f64::NEG_INFINITY; WIDE];
         let (rows, rest) = values.as_chunks::<WIDE>();
         let (weights, rest_weights) = probability.as_chunks::<WIDE>();
-        for (row, weight) in rows.iter().zip(weights) {
-            for j in 0..WIDE {
-                let d = row[j] - shift;
-                let (p, dd) = (weight[j], d * d);
-                let (pd, pdd) = (p * d, p * dd);
-                sums[0][j] += p;
-                sums[1][j] += pd;
-                sums[2][j] += pdd;
-                sums[3][j] += pdd * d;
-                sums[4][j] += pdd * dd;
-                least[j] = if row[j] < least[j] { row[j] } else { least[j] };
-                largest[j] = if row[j] > largest[j] {
-                    row[j]
-                } else {
-                    largest[j]
-                };
+        for first in (0..WIDE).step_by(AT_A_TIME) {
+            let mut some = [[0.0; AT_A_TIME]; 5];
+            let mut low = [f64::INFINITY; AT_A_TIME];
+            let mut high = [f64::NEG_INFINITY; AT_A_TIME];
+            for (row, weight) in rows.iter().zip(weights) {
+                let row = &row[first..first + AT_A_TIME];
+                let weight = &weight[first..first + AT_A_TIME];
+                for j in 0..AT_A_TIME {
+                    let d = row[j] - shift;
+                    let (p, dd) = (weight[j], d * d);
+                    let (pd, pdd) = (p * d, p * dd);
+                    some[0][j] += p;
+                    some[1][j] += pd;
+                    some[2][j] += pdd;
+                    some[3][j] += pdd * d;
+                    some[4][j] += pdd * dd;
+                    low[j] = if row[j] < low[j] { row[j] } else { low[j] };
+                    high[j] = if row[j] > high[j] { row[j] } else { high[j] };
+                }
             }
+            for (sum, some) in sums.iter_mut().zip(some) {
+                sum[first..first + AT_A_TIME].copy_from_slice(&some);
+            }
+            least[first..first + AT_A_TIME].copy_from_slice(&low);
+            largest[first..first + AT_A_TIME].copy_from_slice(&high);
         }
         for (value, p) in rest.iter().zip(rest_weights) {
             let d = value - shift;
