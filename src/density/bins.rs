@@ -1,5 +1,7 @@
 //! Probabilities shared among evenly spaced nodes.
 
+use pulp::{Simd, WithSimd};
+
 /// Masses at x₀ + j δ. A value between two nodes is shared so that its mean is kept; on average that
 /// adds δ²/6 to the variance.
 #[derive(Debug, Clone, PartialEq)]
@@ -7,6 +9,22 @@ pub struct Bins {
     origin: f64,
     spacing: f64,
     masses: Vec<f64>,
+}
+
+/// The work of [`Bins::add`], for the machine's vector units.
+struct Add<'a> {
+    bins: &'a mut Bins,
+    values: &'a [f64],
+    probability: &'a [f64],
+}
+
+impl WithSimd for Add<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.bins.add_wide(self.values, self.probability);
+    }
 }
 
 /// 2^52: a number added to it is rounded to an integer, which then stands in the lowest bits.
@@ -90,10 +108,11 @@ impl Bins {
 
     /// Shares values, all between least and largest, among the nodes.
     pub fn add(&mut self, values: &[f64], probability: &[f64]) {
-        pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || self.add_wide(values, probability),
-        );
+        pulp::Arch::new().dispatch(Add {
+            bins: self,
+            values,
+            probability,
+        });
     }
 
     #[inline(always)]
@@ -101,7 +120,8 @@ impl Bins {
         /// Values whose places are found side by side.
         const WIDE: usize = 16;
         let (origin, scale) = (self.origin, 1.0 / self.spacing);
-        let last = self.masses.len() - 2;
+        let masses = &mut self.masses[..];
+        let last = masses.len() - 2;
         let (rows, rest) = values.as_chunks::<WIDE>();
         let (weights, rest_weights) = probability.as_chunks::<WIDE>();
         for (row, weight) in rows.iter().zip(weights) {
@@ -118,7 +138,7 @@ impl Bins {
             }
             for (node, [lower, upper]) in nodes.into_iter().zip(pairs) {
                 let node = (node as usize).min(last);
-                let pair = &mut self.masses[node..node + 2];
+                let pair = &mut masses[node..node + 2];
                 pair[0] += lower;
                 pair[1] += upper;
             }
@@ -127,8 +147,8 @@ impl Bins {
             let place = (value - origin) * scale;
             let node = (place as usize).min(last);
             let upper = p * (place - node as f64);
-            self.masses[node] += p - upper;
-            self.masses[node + 1] += upper;
+            masses[node] += p - upper;
+            masses[node + 1] += upper;
         }
     }
 

@@ -2,6 +2,7 @@
 //! they are few or the rule of smoothing needs them so, in bins where they are many, as much at a time
 //! as memory holds.
 
+use super::each;
 use super::estimate::{EXACT_POINTS, Options};
 use super::rule::Rule;
 use super::{Bins, PowerSums};
@@ -124,17 +125,20 @@ impl Estimator<'_> {
                 .copy_from_slice(block.values);
         })?;
         let probability = self.source.probability();
-        let cell = |values: Vec<f64>| {
+        let sums = each::map(&values, |_, values| {
             let mut sums = PowerSums::default();
-            sums.add(&values, probability);
-            let samples = if sums.has_spread() {
+            sums.add(values, probability);
+            sums
+        });
+        let cell = |(values, sums): (Vec<f64>, PowerSums)| Cell {
+            samples: if sums.has_spread() {
                 Samples::Each(values)
             } else {
                 Samples::One
-            };
-            Cell { sums, samples }
+            },
+            sums,
         };
-        Ok(values.into_par_iter().map(cell).collect())
+        Ok(values.into_iter().zip(sums).map(cell).collect())
     }
 
     /// Sums of all cells; with bins that grew to hold the values of one pass, where they are few enough
@@ -166,7 +170,7 @@ impl Estimator<'_> {
             }
         })?;
         let sums: Vec<PowerSums> = held.iter().map(|cell| cell.sums).collect();
-        let fine = held.par_iter_mut().all(|cell| {
+        let fine = held.iter_mut().all(|cell| {
             let Samples::Bins(bins) = &mut cell.samples else {
                 return !cell.sums.has_spread();
             };
@@ -234,17 +238,13 @@ impl Estimator<'_> {
 
     /// Empties all bins where any is too coarse for its width, and makes those finer.
     fn refine(&self, cells: &mut [Cell]) -> bool {
-        let finer: Vec<Option<f64>> = cells
-            .par_iter()
-            .map(|cell| match &cell.samples {
-                Samples::Bins(bins) => {
-                    let width = self.fitted(cell, |fit| fit.width()).1?;
-                    (bins.spacing() > width / (0.6 * BINS_PER_WIDTH))
-                        .then_some(width / BINS_PER_WIDTH)
-                }
-                Samples::Each(_) | Samples::One => None,
-            })
-            .collect();
+        let finer: Vec<Option<f64>> = each::map(cells, |_, cell| match &cell.samples {
+            Samples::Bins(bins) => {
+                let width = self.fitted(cell, |fit| fit.width()).1?;
+                (bins.spacing() > width / (0.6 * BINS_PER_WIDTH)).then_some(width / BINS_PER_WIDTH)
+            }
+            Samples::Each(_) | Samples::One => None,
+        });
         if finer.iter().all(Option::is_none) {
             return false;
         }
@@ -283,7 +283,7 @@ impl Estimator<'_> {
         let wanted: Vec<usize> = (first / times..last.div_ceil(times))
             .map(|k| self.quantities[k])
             .collect();
-        let alone = rayon::current_num_threads() == 1;
+        let alone = each::alone();
         self.source.scan(&wanted, &mut |blocks| {
             if alone {
                 for block in blocks {

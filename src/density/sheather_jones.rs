@@ -12,6 +12,7 @@
 //! f_s standing for the norm of the density's s-th derivative. No stage supposes a normal density, so
 //! that separate peaks and edges keep their shape. N is N_eff.
 
+use pulp::{Simd, WithSimd};
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 use std::f64::consts::PI;
@@ -141,10 +142,11 @@ impl Series {
     /// f_s at time t. The exponentials follow from each other,
     /// e^(−(k+n)² c) = e^(−k² c) e^(−(2kn + n²) c), n the terms side by side.
     fn derivative_norm(&self, order: i32, time: f64) -> f64 {
-        pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || self.derivative_norm_wide(order, time),
-        )
+        pulp::Arch::new().dispatch(Norm {
+            series: self,
+            order,
+            time,
+        })
     }
 
     #[inline(always)]
@@ -170,6 +172,22 @@ impl Series {
         }
         let rest: f64 = rest.iter().zip(decay).map(|(a, decay)| a * decay).sum();
         0.5 * PI.powi(2 * order) * (sums.iter().sum::<f64>() + rest)
+    }
+}
+
+/// The work of [`Series::derivative_norm`], for the machine's vector units.
+struct Norm<'a> {
+    series: &'a Series,
+    order: i32,
+    time: f64,
+}
+
+impl WithSimd for Norm<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        self.series.derivative_norm_wide(self.order, self.time)
     }
 }
 

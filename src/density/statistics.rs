@@ -1,6 +1,7 @@
 //! Weighted moments and quantiles.
 
 use super::Spread;
+use pulp::{Simd, WithSimd};
 
 /// Probabilities of the quantiles that are reported.
 pub const LEVELS: [f64; 9] = [0.001, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999];
@@ -33,6 +34,22 @@ pub struct PowerSums {
     pub largest: f64,
 }
 
+/// The work of [`PowerSums::add`]. A closure is not compiled for the vector units: a call stays between.
+struct Add<'a> {
+    sums: &'a mut PowerSums,
+    values: &'a [f64],
+    probability: &'a [f64],
+}
+
+impl WithSimd for Add<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.sums.add_wide(self.values, self.probability);
+    }
+}
+
 impl Default for PowerSums {
     fn default() -> Self {
         PowerSums {
@@ -48,10 +65,11 @@ impl PowerSums {
     /// Adds values with their probabilities. The first value ever becomes the shift, so that a mean
     /// far from zero costs no digits.
     pub fn add(&mut self, values: &[f64], probability: &[f64]) {
-        pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || self.add_wide(values, probability),
-        );
+        pulp::Arch::new().dispatch(Add {
+            sums: self,
+            values,
+            probability,
+        });
     }
 
     #[inline(always)]

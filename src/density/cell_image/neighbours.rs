@@ -56,6 +56,30 @@ impl<'a> Neighbours<'a> {
         }
     }
 
+    /// The point nearest to a place. Any point as a guess, best a near one, makes it quick.
+    pub fn nearest_one(&self, place: &[f64], guess: u32) -> u32 {
+        let first = |k: u32| self.points[k as usize * self.dimensions];
+        let middle = self.order.partition_point(|k| first(*k) < place[0]);
+        let (below, above) = self.order.split_at(middle);
+        let (mut far, mut gap) = (self.squared_distance(guess, place), f64::INFINITY);
+        let mut best = guess;
+        // Of several as near the one whose first coordinate is nearer, as above.
+        let mut look = |point: u32| {
+            let own_gap = (first(point) - place[0]).abs();
+            if own_gap * own_gap > far {
+                return false;
+            }
+            let distance = self.squared_distance(point, place);
+            if distance < far || (distance == far && own_gap < gap) {
+                (far, gap, best) = (distance, own_gap, point);
+            }
+            true
+        };
+        let _ = below.iter().rev().all(|point| look(*point));
+        let _ = above.iter().all(|point| look(*point));
+        best
+    }
+
     fn squared_distance(&self, point: u32, place: &[f64]) -> f64 {
         let start = point as usize * self.dimensions;
         let coordinates = &self.points[start..start + self.dimensions];
