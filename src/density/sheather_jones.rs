@@ -103,7 +103,7 @@ static TRANSFORM: LazyLock<Transform> = LazyLock::new(|| Transform {
         .collect(),
 });
 
-/// Terms that run side by side, for the vector units.
+/// Terms that run side by side, for the vector units: n below.
 const WIDE: usize = 8;
 
 /// k^(2s) a_k² for each s, k = 1, 2, ...
@@ -156,11 +156,19 @@ impl Series {
         // Beyond it the terms are below 1e-30 of the largest.
         let terms =
             (((70.0 + 16.0 * f64::from(order)) / c).sqrt() as usize + 1).min(weighted.len());
-        let wide = WIDE as f64;
-        let turn = (-2.0 * wide * wide * c).exp();
-        let first: [f64; WIDE] = std::array::from_fn(|j| (j + 1) as f64);
-        let mut decay = first.map(|k| (-k * k * c).exp());
-        let mut factor = first.map(|k| (-(2.0 * k * wide + wide * wide) * c).exp());
+        // All of them are powers of e^(−c).
+        let one = (-c).exp();
+        let square = one * one;
+        let to_16 = square.powi(8);
+        let to_64 = to_16.powi(4);
+        let turn = to_64 * to_64;
+        let (mut decay, mut factor) = ([one; WIDE], [to_64 * to_16; WIDE]);
+        let mut ratio = square * one;
+        for j in 1..WIDE {
+            decay[j] = decay[j - 1] * ratio;
+            factor[j] = factor[j - 1] * to_16;
+            ratio *= square;
+        }
         let mut sums = [0.0; WIDE];
         let (rows, rest) = weighted[..terms].as_chunks::<WIDE>();
         for row in rows {

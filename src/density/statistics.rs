@@ -169,6 +169,46 @@ impl PowerSums {
     }
 }
 
+/// Fewer values are sorted at once.
+const FEW: usize = 64;
+
+fn sort_all(pairs: &mut [(f64, f64)]) {
+    pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+}
+
+/// Sorts by the share of the range first, as many shares as values, then within each share.
+fn sort_by_share(pairs: &mut Vec<(f64, f64)>) {
+    let ends = (f64::INFINITY, f64::NEG_INFINITY);
+    let (least, largest) = pairs
+        .iter()
+        .fold(ends, |(a, b), (x, _)| (a.min(*x), b.max(*x)));
+    let last = pairs.len() - 1;
+    let scale = last as f64 / (largest - least);
+    let share = |x: f64| (((x - least) * scale) as usize).min(last);
+    // The number of values before each share, then before the next.
+    let mut ends = vec![0u32; pairs.len() + 1];
+    for (x, _) in &*pairs {
+        ends[share(*x) + 1] += 1;
+    }
+    for k in 1..ends.len() {
+        ends[k] += ends[k - 1];
+    }
+    let mut sorted = vec![(0.0, 0.0); pairs.len()];
+    for pair in &*pairs {
+        let end = &mut ends[share(pair.0)];
+        sorted[*end as usize] = *pair;
+        *end += 1;
+    }
+    let mut start = 0;
+    for end in ends {
+        if end as usize > start + 1 {
+            sort_all(&mut sorted[start..end as usize]);
+        }
+        start = end as usize;
+    }
+    *pairs = sorted;
+}
+
 /// Values in ascending order with their probabilities, for quantiles.
 ///
 /// Each value stands at the middle of its own share of the probability and the quantile is linear
@@ -182,7 +222,11 @@ pub struct Weighted<'a> {
 impl<'a> Weighted<'a> {
     /// Sorts (value, probability) pairs.
     pub fn sort(pairs: &'a mut Vec<(f64, f64)>) -> Self {
-        pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        if pairs.len() < FEW || pairs.is_sorted_by(|a, b| a.0 <= b.0) {
+            sort_all(pairs);
+        } else {
+            sort_by_share(pairs);
+        }
         Weighted { pairs }
     }
 

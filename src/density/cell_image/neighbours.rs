@@ -6,6 +6,8 @@ pub(super) struct Neighbours<'a> {
     points: &'a [f64],
     dimensions: usize,
     order: Vec<u32>,
+    /// The points in this order.
+    sorted: Vec<f64>,
 }
 
 impl<'a> Neighbours<'a> {
@@ -13,9 +15,15 @@ impl<'a> Neighbours<'a> {
         let mut order: Vec<u32> = (0..(points.len() / dimensions) as u32).collect();
         let first = |k: u32| points[k as usize * dimensions];
         order.sort_by(|a, b| first(*a).total_cmp(&first(*b)).then(a.cmp(b)));
+        let sorted = order.iter().flat_map(|k| {
+            points[*k as usize * dimensions..][..dimensions]
+                .iter()
+                .copied()
+        });
         Neighbours {
             points,
             dimensions,
+            sorted: sorted.collect(),
             order,
         }
     }
@@ -58,25 +66,31 @@ impl<'a> Neighbours<'a> {
 
     /// The point nearest to a place. Any point as a guess, best a near one, makes it quick.
     pub fn nearest_one(&self, place: &[f64], guess: u32) -> u32 {
-        let first = |k: u32| self.points[k as usize * self.dimensions];
-        let middle = self.order.partition_point(|k| first(*k) < place[0]);
-        let (below, above) = self.order.split_at(middle);
+        let rows = self.sorted.chunks_exact(self.dimensions);
+        let middle = self
+            .order
+            .partition_point(|k| self.points[*k as usize * self.dimensions] < place[0]);
         let (mut far, mut gap) = (self.squared_distance(guess, place), f64::INFINITY);
         let mut best = guess;
         // Of several as near the one whose first coordinate is nearer, as above.
-        let mut look = |point: u32| {
-            let own_gap = (first(point) - place[0]).abs();
+        let mut look = |(row, point): (&[f64], &u32)| {
+            let own_gap = (row[0] - place[0]).abs();
             if own_gap * own_gap > far {
                 return false;
             }
-            let distance = self.squared_distance(point, place);
+            let distance = match (row, place) {
+                ([a, b], [x, y]) => (a - x) * (a - x) + (b - y) * (b - y),
+                _ => self.squared_distance(*point, place),
+            };
             if distance < far || (distance == far && own_gap < gap) {
-                (far, gap, best) = (distance, own_gap, point);
+                (far, gap, best) = (distance, own_gap, *point);
             }
             true
         };
-        let _ = below.iter().rev().all(|point| look(*point));
-        let _ = above.iter().all(|point| look(*point));
+        let points = rows.zip(&self.order);
+        let mut below = points.clone().take(middle).rev();
+        below.all(&mut look);
+        points.skip(middle).all(&mut look);
         best
     }
 
