@@ -176,3 +176,34 @@ impl Bins {
         square.max(0.25 * width * width).sqrt()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bins_that_grew_hold_what_they_had_held_at_once() {
+        let values: Vec<f64> = (0..1000)
+            .map(|k| (0.01 * k as f64) * (1.7 * k as f64).sin())
+            .collect();
+        let probability = vec![1e-3; values.len()];
+        let mut grown = Bins::new(-0.1, 0.1, 0.01);
+        let (mut least, mut largest) = (-0.1f64, 0.1f64);
+        for part in values.chunks(50) {
+            least = part.iter().fold(least, |a, b| a.min(*b));
+            largest = part.iter().fold(largest, |a, b| a.max(*b));
+            grown.reach(least, largest, 300);
+            grown.add(part, &probability[..part.len()]);
+        }
+        assert!(grown.len() <= 300 && grown.spacing() > 0.03);
+        let mut at_once = Bins {
+            origin: grown.origin,
+            spacing: grown.spacing,
+            masses: vec![0.0; grown.len()],
+        };
+        at_once.add(&values, &probability);
+        for (one, other) in grown.masses.iter().zip(&at_once.masses) {
+            assert!((one - other).abs() < 1e-14, "{one} {other}");
+        }
+    }
+}

@@ -104,3 +104,25 @@ impl<'a> Neighbours<'a> {
             .sum()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::probability::{MonteCarlo, PointRule};
+
+    #[test]
+    fn the_nearest_one_is_the_first_of_the_nearest() {
+        for dimensions in [2, 3] {
+            let mut points = vec![0.0; 300 * dimensions];
+            MonteCarlo::new(300, dimensions, 1).standard_normals(0..300, &mut points);
+            let search = Neighbours::new(&points, dimensions);
+            let mut places = vec![0.0; 200 * dimensions];
+            MonteCarlo::new(200, dimensions, 2).standard_normals(0..200, &mut places);
+            let mut found = Vec::new();
+            for (k, place) in places.chunks(dimensions).enumerate() {
+                search.nearest(place, 1, &mut found);
+                assert_eq!(search.nearest_one(place, k as u32), found[0].1);
+            }
+        }
+    }
+}
