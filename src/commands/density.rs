@@ -11,9 +11,10 @@ use crate::files::recording::{Axis, Recordings};
 use crate::files::tables::{DensityWriter, MomentsRow, MomentsWriter};
 use crate::files::{Kind, OutputFile, Weights};
 use crate::scenario::{DensitySpec, MethodKind};
-use crate::{BadInput, Result};
+use crate::{BadInput, Result, memory};
 
 pub(super) fn run(context: &Context, args: &cli::Density) -> Result<()> {
+    memory::keep_freed();
     let mut outputs = vec![("--output", args.output.output.as_path())];
     outputs.extend(
         args.moments

@@ -2,6 +2,7 @@
 //! they are few or the rule of smoothing needs them so, in bins where they are many, as much at a time
 //! as memory holds.
 
+use super::each;
 use super::estimate::{EXACT_POINTS, Options};
 use super::rule::Rule;
 use super::{Bins, PowerSums};
@@ -14,6 +15,12 @@ const MEMORY: usize = 192 << 20;
 /// Bins in a smoothing width, and at first, when a small distance of the quartiles may still narrow it.
 const BINS_PER_WIDTH: f64 = 6.0;
 const BINS_AT_FIRST: f64 = 10.0;
+/// Bins in a width where they grow, their deviation known from the first block alone.
+const BINS_GROWN: f64 = 12.0;
+/// The fewest bins over the first block's range.
+const LEAST_INTERVALS: f64 = 16.0;
+/// Bins grow where at least so many of a cell fit in the memory.
+const LEAST_GROWN: usize = 2048;
 /// A spread below this share of the largest response at any time is rounding: a response that is
 /// zero at the start, but for the last digit of what cancels there.
 const ROUNDING: f64 = 1e-14;
@@ -66,8 +73,12 @@ impl Estimator<'_> {
             }
             return Ok(());
         }
-        let sums = self.sums(cells)?;
+        let (sums, held) = self.grown(cells)?;
         let scales = self.scales(&sums);
+        if let Some(mut held) = held {
+            self.still(0, &mut held, &scales);
+            return work(self, 0, &held);
+        }
         let mut first = 0;
         while first < cells {
             let mut bytes = 0;
@@ -114,17 +125,69 @@ impl Estimator<'_> {
                 .copy_from_slice(block.values);
         })?;
         let probability = self.source.probability();
-        let cell = |values: Vec<f64>| {
+        let sums = each::map(&values, |_, values| {
             let mut sums = PowerSums::default();
-            sums.add(&values, probability);
-            let samples = if sums.has_spread() {
+            sums.add(values, probability);
+            sums
+        });
+        let cell = |(values, sums): (Vec<f64>, PowerSums)| Cell {
+            samples: if sums.has_spread() {
                 Samples::Each(values)
             } else {
                 Samples::One
-            };
-            Cell { sums, samples }
+            },
+            sums,
         };
-        Ok(values.into_par_iter().map(cell).collect())
+        Ok(values.into_iter().zip(sums).map(cell).collect())
+    }
+
+    /// Sums of all cells; with bins that grew to hold the values of one pass, where they are few enough
+    /// for the memory and come out as fine as they have to be.
+    fn grown(&self, cells: usize) -> Result<(Vec<PowerSums>, Option<Vec<Cell>>)> {
+        let most = MEMORY / (8 * cells.max(1));
+        if most < LEAST_GROWN {
+            return Ok((self.sums(cells)?, None));
+        }
+        let none = Cell {
+            sums: PowerSums::default(),
+            samples: Samples::One,
+        };
+        let mut held = vec![none; cells];
+        let probability = self.source.probability();
+        self.scan(0, &mut held, |cell, block| {
+            let probability = &probability[block.first_point..][..block.values.len()];
+            let is_first = cell.sums.largest < cell.sums.least;
+            cell.sums.add(block.values, probability);
+            let PowerSums { least, largest, .. } = cell.sums;
+            if is_first && cell.sums.has_spread() {
+                let spacing = self.first_spacing(&cell.sums) * BINS_AT_FIRST / BINS_GROWN;
+                let spacing = spacing.min((largest - least) / LEAST_INTERVALS);
+                cell.samples = Samples::Bins(Bins::new(least, largest, spacing));
+            }
+            if let Samples::Bins(bins) = &mut cell.samples {
+                bins.reach(least, largest, most);
+                bins.add(block.values, probability);
+            }
+        })?;
+        let sums: Vec<PowerSums> = held.iter().map(|cell| cell.sums).collect();
+        let fine = held.iter_mut().all(|cell| {
+            let Samples::Bins(bins) = &mut cell.samples else {
+                return !cell.sums.has_spread();
+            };
+            let range = cell.sums.largest - cell.sums.least;
+            let wanted = self.first_spacing(&cell.sums);
+            let coarsest = wanted.min(range / LEAST_INTERVALS);
+            while 2.0 * bins.spacing() <= coarsest {
+                bins.coarsen();
+            }
+            bins.spacing() <= wanted
+        });
+        let held = match fine {
+            false => None,
+            true if self.refine(&mut held) => Some(self.refill(0, held)?),
+            true => Some(held),
+        };
+        Ok((sums, held))
     }
 
     /// Sums of all cells.
@@ -153,7 +216,12 @@ impl Estimator<'_> {
                 Samples::One
             },
         };
-        let mut cells: Vec<Cell> = sums.iter().map(cell).collect();
+        let cells = sums.iter().map(cell).collect();
+        self.refill(first, cells)
+    }
+
+    /// The same with empty bins at hand.
+    fn refill(&self, first: usize, mut cells: Vec<Cell>) -> Result<Vec<Cell>> {
         loop {
             let probability = self.source.probability();
             self.scan(first, &mut cells, |cell, block| {
@@ -170,17 +238,13 @@ impl Estimator<'_> {
 
     /// Empties all bins where any is too coarse for its width, and makes those finer.
     fn refine(&self, cells: &mut [Cell]) -> bool {
-        let finer: Vec<Option<f64>> = cells
-            .par_iter()
-            .map(|cell| match &cell.samples {
-                Samples::Bins(bins) => {
-                    let width = self.fitted(cell, |fit| fit.width()).1?;
-                    (bins.spacing() > width / (0.6 * BINS_PER_WIDTH))
-                        .then_some(width / BINS_PER_WIDTH)
-                }
-                Samples::Each(_) | Samples::One => None,
-            })
-            .collect();
+        let finer: Vec<Option<f64>> = each::map(cells, |_, cell| match &cell.samples {
+            Samples::Bins(bins) => {
+                let width = self.fitted(cell, |fit| fit.width()).1?;
+                (bins.spacing() > width / (0.6 * BINS_PER_WIDTH)).then_some(width / BINS_PER_WIDTH)
+            }
+            Samples::Each(_) | Samples::One => None,
+        });
         if finer.iter().all(Option::is_none) {
             return false;
         }
@@ -219,7 +283,21 @@ impl Estimator<'_> {
         let wanted: Vec<usize> = (first / times..last.div_ceil(times))
             .map(|k| self.quantities[k])
             .collect();
+        let alone = each::alone();
         self.source.scan(&wanted, &mut |blocks| {
+            if alone {
+                for block in blocks {
+                    for (k, quantity) in self.quantities.iter().enumerate() {
+                        let cell = (k * times + block.time).checked_sub(first);
+                        if *quantity == block.quantity
+                            && let Some(state) = cell.and_then(|cell| states.get_mut(cell))
+                        {
+                            feed(state, block);
+                        }
+                    }
+                }
+                return Ok(());
+            }
             let mut of_cell: Vec<Vec<&Block<'_>>> = vec![Vec::new(); last - first];
             for block in blocks {
                 for (k, _) in self

@@ -1,12 +1,12 @@
 //! Densities and moments of all quantities at all times, from a stream of blocks.
 
 use super::cells::{Cell, Estimator, Samples};
+use super::each;
 use super::rule::{Extent, Fit, Sample};
 use super::statistics::{LEVELS, Moments, Weighted};
 use super::{Curve, Nodes, Smoother};
 use crate::response::{Responses, effective_count};
 use crate::{Result, interrupt};
-use rayon::prelude::*;
 
 /// Up to so many points the sums run over the points themselves.
 pub const EXACT_POINTS: usize = 8192;
@@ -73,11 +73,9 @@ pub fn estimate(
         for (part, cells) in cells.chunks(TOGETHER).enumerate() {
             interrupt::check()?;
             let first = first + part * TOGETHER;
-            let results: Vec<TimeDensity> = cells
-                .par_iter()
-                .enumerate()
-                .map(|(k, cell)| estimator.result(first + k, cell, nodes[(first + k) / times]))
-                .collect();
+            let results = each::map(cells, |k, cell| {
+                estimator.result(first + k, cell, nodes[(first + k) / times])
+            });
             results.into_iter().try_for_each(&mut take)?;
         }
         Ok(())
@@ -155,10 +153,9 @@ impl Estimator<'_> {
         let mut extents = vec![none; self.quantities.len()];
         let times = self.source.times().len();
         self.windows(cells, |estimator, first, cells| {
-            let own: Vec<Option<Extent>> = cells
-                .par_iter()
-                .map(|cell| estimator.fitted(cell, |fit| fit.extent()).1)
-                .collect();
+            let own = each::map(cells, |_, cell| {
+                estimator.fitted(cell, |fit| fit.extent()).1
+            });
             for (k, own) in own.iter().enumerate() {
                 let all = &mut extents[(first + k) / times];
                 if let Some(own) = own {

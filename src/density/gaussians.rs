@@ -13,7 +13,7 @@
 
 use super::fourier::FineGrid;
 use super::rule::{Extent, Fit, Rule, Sample, Smoothed, Values};
-use super::{Nodes, Spread, WidthRule, smooth};
+use super::{Curve, Nodes, Spread, WidthRule, smooth};
 
 /// Gaussians of a width by a rule, about the responses.
 pub(super) struct Plain(pub WidthRule);
@@ -148,13 +148,27 @@ impl Fit for Gaussians<'_> {
     fn curve(&self, nodes: Nodes) -> Smoothed {
         let width = self.width.max(2.0 * nodes.spacing);
         let share = self.share_of_deviation(width);
+        let ends = [self.sample.least, self.sample.largest];
+        let ends = ends.map(|end| self.centre(share, end));
         let curve = match self.sample.values {
-            Values::Bins(bins) if share == 1.0 => {
-                smooth(bins.nodes(), bins.kernel_width(width), nodes)
-            }
             Values::Bins(bins) => {
-                let bins = bins.drawn_in(self.sample.mean, share);
-                smooth(bins.nodes(), bins.kernel_width(width), nodes)
+                let kept;
+                let bins = if share == 1.0 {
+                    bins
+                } else {
+                    kept = bins.drawn_in(self.sample.mean, share);
+                    &kept
+                };
+                // A node beyond the values may hold a part of them.
+                let beyond = bins.spacing();
+                let ends = [ends[0] - beyond, ends[1] + beyond];
+                sum(
+                    bins.nodes(),
+                    bins.len(),
+                    ends,
+                    bins.kernel_width(width),
+                    nodes,
+                )
             }
             Values::Each {
                 values,
@@ -162,18 +176,27 @@ impl Fit for Gaussians<'_> {
             } => {
                 let centres = values.iter().map(|g| self.centre(share, *g));
                 let centres = centres.zip(probability.iter().copied());
-                let ends = [self.sample.least, self.sample.largest];
-                let [least, largest] = ends.map(|end| self.centre(share, end));
-                let grid = FineGrid::new(least, largest, width, nodes);
-                // Both ways in products, one after the other in the sum of the points.
-                let reach = 2.0 * Nodes::REACH * width / nodes.spacing;
-                if grid.work(values.len()) < 3 * values.len() * reach as usize {
-                    grid.smooth(centres, width, nodes)
-                } else {
-                    smooth(centres, width, nodes)
-                }
+                sum(centres, values.len(), ends, width, nodes)
             }
         };
         Smoothed { curve, width }
+    }
+}
+
+/// Σ P φ((y − centre)/σ)/σ of `count` centres between two ends, by the way that takes less work.
+fn sum(
+    centres: impl Iterator<Item = (f64, f64)>,
+    count: usize,
+    [least, largest]: [f64; 2],
+    width: f64,
+    nodes: Nodes,
+) -> Curve {
+    let grid = FineGrid::new(least, largest, width, nodes);
+    // Both ways in products, one after the other in the sum of the points.
+    let reach = 2.0 * Nodes::REACH * width / nodes.spacing;
+    if grid.work(count) < 3 * count * reach as usize {
+        grid.smooth(centres, width, nodes)
+    } else {
+        smooth(centres, width, nodes)
     }
 }

@@ -32,6 +32,7 @@ mod cell_image;
 mod cells;
 pub mod control_variate;
 mod controlled;
+mod each;
 mod estimate;
 pub mod evolution;
 mod fourier;

@@ -12,6 +12,7 @@
 //! f_s standing for the norm of the density's s-th derivative. No stage supposes a normal density, so
 //! that separate peaks and edges keep their shape. N is N_eff.
 
+use pulp::{Simd, WithSimd};
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 use std::f64::consts::PI;
@@ -102,7 +103,7 @@ static TRANSFORM: LazyLock<Transform> = LazyLock::new(|| Transform {
         .collect(),
 });
 
-/// Terms that run side by side, for the vector units.
+/// Terms that run side by side, for the vector units: n below.
 const WIDE: usize = 8;
 
 /// k^(2s) a_k² for each s, k = 1, 2, ...
@@ -141,16 +142,33 @@ impl Series {
     /// f_s at time t. The exponentials follow from each other,
     /// e^(−(k+n)² c) = e^(−k² c) e^(−(2kn + n²) c), n the terms side by side.
     fn derivative_norm(&self, order: i32, time: f64) -> f64 {
+        pulp::Arch::new().dispatch(Norm {
+            series: self,
+            order,
+            time,
+        })
+    }
+
+    #[inline(always)]
+    fn derivative_norm_wide(&self, order: i32, time: f64) -> f64 {
         let c = PI * PI * time;
         let weighted = &self.weighted[(order - 2) as usize];
         // Beyond it the terms are below 1e-30 of the largest.
         let terms =
             (((70.0 + 16.0 * f64::from(order)) / c).sqrt() as usize + 1).min(weighted.len());
-        let wide = WIDE as f64;
-        let turn = (-2.0 * wide * wide * c).exp();
-        let first: [f64; WIDE] = std::array::from_fn(|j| (j + 1) as f64);
-        let mut decay = first.map(|k| (-k * k * c).exp());
-        let mut factor = first.map(|k| (-(2.0 * k * wide + wide * wide) * c).exp());
+        // All of them are powers of e^(−c).
+        let one = (-c).exp();
+        let square = one * one;
+        let to_16 = square.powi(8);
+        let to_64 = to_16.powi(4);
+        let turn = to_64 * to_64;
+        let (mut decay, mut factor) = ([one; WIDE], [to_64 * to_16; WIDE]);
+        let mut ratio = square * one;
+        for j in 1..WIDE {
+            decay[j] = decay[j - 1] * ratio;
+            factor[j] = factor[j - 1] * to_16;
+            ratio *= square;
+        }
         let mut sums = [0.0; WIDE];
         let (rows, rest) = weighted[..terms].as_chunks::<WIDE>();
         for row in rows {
@@ -162,6 +180,22 @@ impl Series {
         }
         let rest: f64 = rest.iter().zip(decay).map(|(a, decay)| a * decay).sum();
         0.5 * PI.powi(2 * order) * (sums.iter().sum::<f64>() + rest)
+    }
+}
+
+/// The work of [`Series::derivative_norm`], for the machine's vector units.
+struct Norm<'a> {
+    series: &'a Series,
+    order: i32,
+    time: f64,
+}
+
+impl WithSimd for Norm<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        self.series.derivative_norm_wide(self.order, self.time)
     }
 }
 

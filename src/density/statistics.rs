@@ -1,6 +1,7 @@
 //! Weighted moments and quantiles.
 
 use super::Spread;
+use pulp::{Simd, WithSimd};
 
 /// Probabilities of the quantiles that are reported.
 pub const LEVELS: [f64; 9] = [0.001, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999];
@@ -33,6 +34,22 @@ pub struct PowerSums {
     pub largest: f64,
 }
 
+/// The work of [`PowerSums::add`]. A closure is not compiled for the vector units: a call stays between.
+struct Add<'a> {
+    sums: &'a mut PowerSums,
+    values: &'a [f64],
+    probability: &'a [f64],
+}
+
+impl WithSimd for Add<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.sums.add_wide(self.values, self.probability);
+    }
+}
+
 impl Default for PowerSums {
     fn default() -> Self {
         PowerSums {
@@ -48,16 +65,19 @@ impl PowerSums {
     /// Adds values with their probabilities. The first value ever becomes the shift, so that a mean
     /// far from zero costs no digits.
     pub fn add(&mut self, values: &[f64], probability: &[f64]) {
-        pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || self.add_wide(values, probability),
-        );
+        pulp::Arch::new().dispatch(Add {
+            sums: self,
+            values,
+            probability,
+        });
     }
 
     #[inline(always)]
     fn add_wide(&mut self, values: &[f64], probability: &[f64]) {
         /// Sums that run side by side, for the vector units.
         const WIDE: usize = 16;
+        /// Of these at a time: as many as the registers hold.
+        const AT_A_TIME: usize = 4;
         if self.shift.is_nan() {
             self.shift = values.first().copied().unwrap_or(f64::NAN);
         }
@@ -67,23 +87,31 @@ impl PowerSums {
         let mut largest = [f64::NEG_INFINITY; WIDE];
         let (rows, rest) = values.as_chunks::<WIDE>();
         let (weights, rest_weights) = probability.as_chunks::<WIDE>();
-        for (row, weight) in rows.iter().zip(weights) {
-            for j in 0..WIDE {
-                let d = row[j] - shift;
-                let (p, dd) = (weight[j], d * d);
-                let (pd, pdd) = (p * d, p * dd);
-                sums[0][j] += p;
-                sums[1][j] += pd;
-                sums[2][j] += pdd;
-                sums[3][j] += pdd * d;
-                sums[4][j] += pdd * dd;
-                least[j] = if row[j] < least[j] { row[j] } else { least[j] };
-                largest[j] = if row[j] > largest[j] {
-                    row[j]
-                } else {
-                    largest[j]
-                };
+        for first in (0..WIDE).step_by(AT_A_TIME) {
+            let mut some = [[0.0; AT_A_TIME]; 5];
+            let mut low = [f64::INFINITY; AT_A_TIME];
+            let mut high = [f64::NEG_INFINITY; AT_A_TIME];
+            for (row, weight) in rows.iter().zip(weights) {
+                let row = &row[first..first + AT_A_TIME];
+                let weight = &weight[first..first + AT_A_TIME];
+                for j in 0..AT_A_TIME {
+                    let d = row[j] - shift;
+                    let (p, dd) = (weight[j], d * d);
+                    let (pd, pdd) = (p * d, p * dd);
+                    some[0][j] += p;
+                    some[1][j] += pd;
+                    some[2][j] += pdd;
+                    some[3][j] += pdd * d;
+                    some[4][j] += pdd * dd;
+                    low[j] = if row[j] < low[j] { row[j] } else { low[j] };
+                    high[j] = if row[j] > high[j] { row[j] } else { high[j] };
+                }
             }
+            for (sum, some) in sums.iter_mut().zip(some) {
+                sum[first..first + AT_A_TIME].copy_from_slice(&some);
+            }
+            least[first..first + AT_A_TIME].copy_from_slice(&low);
+            largest[first..first + AT_A_TIME].copy_from_slice(&high);
         }
         for (value, p) in rest.iter().zip(rest_weights) {
             let d = value - shift;
@@ -141,6 +169,46 @@ impl PowerSums {
     }
 }
 
+/// Fewer values are sorted at once.
+const FEW: usize = 64;
+
+fn sort_all(pairs: &mut [(f64, f64)]) {
+    pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+}
+
+/// Sorts by the share of the range first, as many shares as values, then within each share.
+fn sort_by_share(pairs: &mut Vec<(f64, f64)>) {
+    let ends = (f64::INFINITY, f64::NEG_INFINITY);
+    let (least, largest) = pairs
+        .iter()
+        .fold(ends, |(a, b), (x, _)| (a.min(*x), b.max(*x)));
+    let last = pairs.len() - 1;
+    let scale = last as f64 / (largest - least);
+    let share = |x: f64| (((x - least) * scale) as usize).min(last);
+    // The number of values before each share, then before the next.
+    let mut ends = vec![0u32; pairs.len() + 1];
+    for (x, _) in &*pairs {
+        ends[share(*x) + 1] += 1;
+    }
+    for k in 1..ends.len() {
+        ends[k] += ends[k - 1];
+    }
+    let mut sorted = vec![(0.0, 0.0); pairs.len()];
+    for pair in &*pairs {
+        let end = &mut ends[share(pair.0)];
+        sorted[*end as usize] = *pair;
+        *end += 1;
+    }
+    let mut start = 0;
+    for end in ends {
+        if end as usize > start + 1 {
+            sort_all(&mut sorted[start..end as usize]);
+        }
+        start = end as usize;
+    }
+    *pairs = sorted;
+}
+
 /// Values in ascending order with their probabilities, for quantiles.
 ///
 /// Each value stands at the middle of its own share of the probability and the quantile is linear
@@ -154,7 +222,11 @@ pub struct Weighted<'a> {
 impl<'a> Weighted<'a> {
     /// Sorts (value, probability) pairs.
     pub fn sort(pairs: &'a mut Vec<(f64, f64)>) -> Self {
-        pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        if pairs.len() < FEW || pairs.is_sorted_by(|a, b| a.0 <= b.0) {
+            sort_all(pairs);
+        } else {
+            sort_by_share(pairs);
+        }
         Weighted { pairs }
     }
 

@@ -26,19 +26,22 @@ impl Cumulative {
     }
 
     /// Adds a mass between least and largest, of which the share `below(y)` lies below y.
+    #[inline(always)]
     pub fn add(&mut self, mass: f64, least: f64, largest: f64, below: impl Fn(f64) -> f64) {
         let first = self.place_from(least);
         let last = self.place_from(largest);
         let mut before = 0.0;
-        for place in first..last {
-            let now = mass * below(self.start + place as f64 * self.half).clamp(0.0, 1.0);
-            self.steps[place] += now - before;
+        let (start, half) = (self.start, self.half);
+        for (place, step) in (first..).zip(&mut self.steps[first..last.max(first)]) {
+            let now = mass * below(start + place as f64 * half).clamp(0.0, 1.0);
+            *step += now - before;
             before = now;
         }
         self.steps[last] += mass - before;
     }
 
     /// The first place at or above a value, or the one behind all.
+    #[inline(always)]
     fn place_from(&self, value: f64) -> usize {
         let place = ((value - self.start) * self.per_value).ceil();
         (place.max(0.0) as usize).min(self.steps.len() - 1)

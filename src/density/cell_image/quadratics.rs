@@ -11,6 +11,7 @@
 
 use super::neighbours::Neighbours;
 use nalgebra::{DMatrix, DVector};
+use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
 /// What keeps the normal equations solvable where neighbours lie in a line.
@@ -18,13 +19,12 @@ const RIDGE: f64 = 1e-10;
 
 pub(super) struct Quadratics {
     dimensions: usize,
-    neighbours: usize,
     /// `[point][neighbour]`.
     nearest: Vec<u32>,
-    /// `[point][neighbour][term]`: of the coefficients b, then c.
+    /// `[point][term][neighbour]`: of the coefficients b, then c.
     solution: Vec<f64>,
-    /// `[point][neighbour][term]`: the terms at the neighbour.
-    terms: Vec<f64>,
+    /// `[point][dimension][neighbour]`: the distances δ.
+    distances: Vec<f64>,
 }
 
 /// Terms of a quadratic beside the constant.
@@ -58,22 +58,22 @@ impl Quadratics {
         let number = points.len() / dimensions;
         let mut all = Quadratics {
             dimensions,
-            neighbours: count,
             nearest: vec![0; number * count],
             solution: vec![0.0; number * count * terms],
-            terms: vec![0.0; number * count * terms],
+            distances: vec![0.0; number * count * dimensions],
         };
         all.nearest
             .par_chunks_mut(count)
             .zip(all.solution.par_chunks_mut(count * terms))
-            .zip(all.terms.par_chunks_mut(count * terms))
+            .zip(all.distances.par_chunks_mut(count * dimensions))
             .enumerate()
-            .for_each_init(Vec::new, |found, (q, ((nearest, solution), matrix))| {
+            .for_each_init(Vec::new, |found, (q, ((nearest, solution), distances))| {
                 let place = &points[q * dimensions..(q + 1) * dimensions];
                 search.nearest(place, count + 1, found);
                 // The point itself, or one in the same place.
                 let own = found.iter().position(|f| f.1 as usize == q).unwrap_or(0);
                 found.remove(own);
+                let mut matrix = vec![0.0; count * terms];
                 let mut distance = vec![0.0; dimensions];
                 for (k, (_, point)) in found.iter().enumerate() {
                     nearest[k] = *point;
@@ -81,39 +81,112 @@ impl Quadratics {
                     for (d, (a, b)) in distance.iter_mut().zip(other.iter().zip(place)) {
                         *d = a - b;
                     }
+                    for (axis, d) in distance.iter().enumerate() {
+                        distances[axis * count + k] = *d;
+                    }
                     terms_at(&distance, &mut matrix[k * terms..(k + 1) * terms]);
                 }
-                solve(matrix, found, dimensions, solution);
+                solve(&matrix, found, dimensions, solution);
             });
         all
     }
 
     /// The coefficients of all quadratics, `[point][term]`; with the sum of what they miss at their
-    /// neighbours.
-    pub fn coefficients(&self, responses: &[f64], out: &mut Vec<f64>) -> f64 {
-        let terms = terms_of(self.dimensions);
+    /// neighbours. Given up where that is more than `most`.
+    pub fn coefficients(&self, responses: &[f64], most: f64, out: &mut Vec<f64>) -> f64 {
         out.clear();
-        out.resize(responses.len() * terms, 0.0);
-        let mut missed = 0.0;
-        let of_point = self.neighbours * terms;
-        for (q, coefficients) in out.chunks_exact_mut(terms).enumerate() {
-            let nearest = &self.nearest[q * self.neighbours..(q + 1) * self.neighbours];
-            let solution = self.solution[q * of_point..(q + 1) * of_point].chunks_exact(terms);
-            for (point, row) in nearest.iter().zip(solution) {
-                let difference = responses[*point as usize] - responses[q];
-                for (c, s) in coefficients.iter_mut().zip(row) {
-                    *c += s * difference;
+        let arch = pulp::Arch::new();
+        match self.dimensions {
+            2 => arch.dispatch(Coefficients::<2, 5, 14> {
+                quadratics: self,
+                responses,
+                most,
+                out,
+            }),
+            _ => arch.dispatch(Coefficients::<3, 9, 22> {
+                quadratics: self,
+                responses,
+                most,
+                out,
+            }),
+        }
+    }
+}
+
+/// The work of [`Quadratics::coefficients`] in N dimensions, with T terms and K neighbours, for the machine's
+/// vector units.
+struct Coefficients<'a, const N: usize, const T: usize, const K: usize> {
+    quadratics: &'a Quadratics,
+    responses: &'a [f64],
+    most: f64,
+    out: &'a mut Vec<f64>,
+}
+
+impl<const N: usize, const T: usize, const K: usize> WithSimd for Coefficients<'_, N, T, K> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        /// Points between two looks at what is missed.
+        const STRETCH: usize = 32;
+        let Quadratics {
+            nearest,
+            solution,
+            distances,
+            ..
+        } = self.quadratics;
+        let nearest = nearest.as_chunks::<K>().0;
+        let solution = solution.as_chunks::<K>().0.as_chunks::<T>().0;
+        let distances = distances.as_chunks::<K>().0.as_chunks::<N>().0;
+        let mut missed = [0.0; K];
+        let rows = nearest.iter().zip(solution).zip(distances);
+        for (q, ((nearest, solution), distances)) in rows.enumerate() {
+            let own = self.responses[q];
+            let mut difference = [0.0; K];
+            for (d, point) in difference.iter_mut().zip(nearest) {
+                *d = self.responses[*point as usize] - own;
+            }
+            let mut coefficients = [0.0; T];
+            for (c, row) in coefficients.iter_mut().zip(solution) {
+                let products: [f64; K] = std::array::from_fn(|k| row[k] * difference[k]);
+                *c = sum(&products);
+            }
+            let mut foretold = [0.0; K];
+            let mut at = N;
+            for i in 0..N {
+                for k in 0..K {
+                    foretold[k] += coefficients[i] * distances[i][k];
+                }
+                for j in i..N {
+                    for k in 0..K {
+                        foretold[k] += coefficients[at] * (distances[i][k] * distances[j][k]);
+                    }
+                    at += 1;
                 }
             }
-            let matrix = self.terms[q * of_point..(q + 1) * of_point].chunks_exact(terms);
-            for (point, row) in nearest.iter().zip(matrix) {
-                let difference = responses[*point as usize] - responses[q];
-                let foretold: f64 = row.iter().zip(&*coefficients).map(|(a, b)| a * b).sum();
-                missed += (foretold - difference).abs();
+            for k in 0..K {
+                missed[k] += (foretold[k] - difference[k]).abs();
+            }
+            self.out.extend_from_slice(&coefficients);
+            if q % STRETCH == 0 && sum(&missed) > self.most {
+                break;
             }
         }
-        missed
+        sum(&missed)
     }
+}
+
+/// Four sums side by side, then theirs.
+#[inline(always)]
+fn sum<const K: usize>(values: &[f64; K]) -> f64 {
+    let (rows, rest) = values.as_chunks::<4>();
+    let mut sums = [0.0; 4];
+    for row in rows {
+        for j in 0..4 {
+            sums[j] += row[j];
+        }
+    }
+    (sums[0] + sums[2]) + (sums[1] + sums[3]) + rest.iter().sum::<f64>()
 }
 
 /// (Mᵀ W M)⁻¹ Mᵀ W, distances in units of the farthest neighbour's.
@@ -149,7 +222,7 @@ fn solve(matrix: &[f64], found: &[(f64, u32)], dimensions: usize, solution: &mut
     let inverse = factor.solve(&weighted.transpose());
     for k in 0..found.len() {
         for t in 0..terms {
-            solution[k * terms + t] = inverse[(t, k)] * unit(t);
+            solution[t * found.len() + k] = inverse[(t, k)] * unit(t);
         }
     }
 }

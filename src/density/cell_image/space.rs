@@ -7,7 +7,9 @@ use crate::density::known::{KnownPoints, Scale};
 use crate::density::rule::{Extent, Fit, Rule, Sample, Smoothed};
 use crate::density::smoother::SmoothingError;
 use crate::density::{Nodes, Spread};
+use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The most variables.
 const MOST_VARIABLES: usize = 3;
@@ -19,6 +21,8 @@ const STEEPEST: f64 = 1e-4;
 /// The cells of points in a space, on every choice of scales.
 pub struct CellSpace {
     choices: Vec<OnScales>,
+    /// The choice that was best last.
+    likely: AtomicUsize,
 }
 
 /// The cells where each variable has its scale.
@@ -57,7 +61,10 @@ impl CellSpace {
                 OnScales::new(points, &scales)
             })
             .collect();
-        Ok(CellSpace { choices })
+        Ok(CellSpace {
+            choices,
+            likely: AtomicUsize::new(0),
+        })
     }
 }
 
@@ -83,20 +90,23 @@ impl OnScales {
             .zip(&mut mass)
             .zip(distance.par_chunks_mut(dimensions))
             .enumerate()
-            .for_each_init(Vec::new, |found, (part, ((nearest, mass), distance))| {
-                let mut rest = part;
-                for (place, axis) in distance.iter_mut().zip(&axes) {
-                    *place = axis.means[rest % along];
-                    *mass *= axis.masses[rest % along];
-                    rest /= along;
-                }
-                search.nearest(distance, 1, found);
-                *nearest = found[0].1;
-                let point = &coordinates[*nearest as usize * dimensions..];
-                for (d, coordinate) in distance.iter_mut().zip(point) {
-                    *d -= coordinate;
-                }
-            });
+            .for_each_init(
+                || 0,
+                |guess, (part, ((nearest, mass), distance))| {
+                    let mut rest = part;
+                    for (place, axis) in distance.iter_mut().zip(&axes) {
+                        *place = axis.means[rest % along];
+                        *mass *= axis.masses[rest % along];
+                        rest /= along;
+                    }
+                    *guess = search.nearest_one(distance, *guess);
+                    *nearest = *guess;
+                    let point = &coordinates[*nearest as usize * dimensions..];
+                    for (d, coordinate) in distance.iter_mut().zip(point) {
+                        *d -= coordinate;
+                    }
+                },
+            );
         OnScales {
             dimensions,
             quadratics: Quadratics::new(&coordinates, dimensions),
@@ -109,34 +119,61 @@ impl OnScales {
 
     /// The image of every part.
     fn images(&self, responses: &[f64], coefficients: &[f64]) -> Vec<Trapezoid> {
-        let terms = terms_of(self.dimensions);
-        let parts = self.nearest.iter().zip(&self.mass);
-        parts
-            .zip(self.distance.chunks_exact(self.dimensions))
-            .map(|((point, mass), distance)| {
-                let point = *point as usize;
-                let own = &coefficients[point * terms..(point + 1) * terms];
-                let (bent, half) = (&own[self.dimensions..], &self.half);
-                let (rise, slopes) = value_and_slopes(own, bent, distance);
-                Trapezoid::new(responses[point] + rise, &slopes, half, *mass)
-            })
-            .collect()
+        let arch = pulp::Arch::new();
+        match self.dimensions {
+            2 => arch.dispatch(Imaging::<2> {
+                on: self,
+                responses,
+                coefficients,
+            }),
+            _ => arch.dispatch(Imaging::<3> {
+                on: self,
+                responses,
+                coefficients,
+            }),
+        }
+    }
+}
+
+/// The work of [`OnScales::images`] in N dimensions, for the machine's vector units.
+struct Imaging<'a, const N: usize> {
+    on: &'a OnScales,
+    responses: &'a [f64],
+    coefficients: &'a [f64],
+}
+
+impl<const N: usize> WithSimd for Imaging<'_, N> {
+    type Output = Vec<Trapezoid>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Vec<Trapezoid> {
+        let on = self.on;
+        let terms = terms_of(N);
+        let half: [f64; N] = std::array::from_fn(|axis| on.half[axis]);
+        let parts = on.nearest.iter().zip(&on.mass);
+        let mut images = Vec::with_capacity(on.nearest.len());
+        for ((point, mass), distance) in parts.zip(on.distance.as_chunks::<N>().0) {
+            let point = *point as usize;
+            let own = &self.coefficients[point * terms..(point + 1) * terms];
+            let (rise, slopes) = value_and_slopes(own, distance);
+            let centre = self.responses[point] + rise;
+            images.push(Trapezoid::new(centre, &slopes, &half, *mass));
+        }
+        images
     }
 }
 
 /// The quadratic less its constant, and its slopes.
-fn value_and_slopes(
-    linear: &[f64],
-    bent: &[f64],
-    distance: &[f64],
-) -> (f64, [f64; MOST_VARIABLES]) {
-    let mut slopes = [0.0; MOST_VARIABLES];
+#[inline(always)]
+fn value_and_slopes<const N: usize>(terms: &[f64], distance: &[f64; N]) -> (f64, [f64; N]) {
+    let (linear, bent) = terms.split_at(N);
+    let mut slopes = [0.0; N];
     let mut value = 0.0;
     let mut at = 0;
-    for i in 0..distance.len() {
+    for i in 0..N {
         slopes[i] += linear[i];
         value += linear[i] * distance[i];
-        for j in i..distance.len() {
+        for j in i..N {
             value += bent[at] * distance[i] * distance[j];
             slopes[i] += bent[at] * distance[j];
             slopes[j] += bent[at] * distance[i];
@@ -144,6 +181,26 @@ fn value_and_slopes(
         }
     }
     (value, slopes)
+}
+
+/// The sum of all images.
+struct Summing<'a> {
+    images: &'a [Trapezoid],
+    sum: Cumulative,
+}
+
+impl WithSimd for Summing<'_> {
+    type Output = Cumulative;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, _: S) -> Cumulative {
+        for image in self.images {
+            let (least, largest) = (image.least(), image.largest());
+            let below = image.below();
+            self.sum.add(image.mass, least, largest, below);
+        }
+        self.sum
+    }
 }
 
 /// An axis in equal parts on its scale: of each the mean coordinate and the probability.
@@ -183,19 +240,21 @@ struct Trapezoid {
 impl Trapezoid {
     /// The image of a part by its slopes. Of more than two axes the smaller ones widen the largest, by
     /// variance.
+    #[inline(always)]
     fn new(centre: f64, slopes: &[f64], half: &[f64], mass: f64) -> Self {
         let (mut a, mut b, mut rest) = (0.0f64, 0.0f64, 0.0);
         for (slope, half) in slopes.iter().zip(half) {
-            let mut extent = (slope * half).abs();
-            if extent > a {
-                std::mem::swap(&mut a, &mut extent);
-            }
-            if extent > b {
-                std::mem::swap(&mut b, &mut extent);
-            }
+            let extent = (slope * half).abs();
+            let (larger, extent) = if extent > a { (extent, a) } else { (a, extent) };
+            let (middle, extent) = if extent > b { (extent, b) } else { (b, extent) };
+            (a, b) = (larger, middle);
             rest += extent * extent;
         }
-        let a = (a * a + rest).sqrt();
+        let a = if slopes.len() > 2 {
+            (a * a + rest).sqrt()
+        } else {
+            a
+        };
         Trapezoid {
             centre,
             a,
@@ -204,24 +263,31 @@ impl Trapezoid {
         }
     }
 
+    #[inline(always)]
     fn least(&self) -> f64 {
         self.centre - self.a - self.b
     }
 
+    #[inline(always)]
     fn largest(&self) -> f64 {
         self.centre + self.a + self.b
     }
 
-    /// The share below y, for a y inside.
-    fn below(&self, y: f64) -> f64 {
-        let (a, b) = (self.a, self.b);
-        let from_end = a + b - (y - self.centre).abs();
-        let tail = if from_end < 2.0 * b {
-            from_end * from_end / (8.0 * a * b)
-        } else {
-            (from_end - b) / (2.0 * a)
-        };
-        if y < self.centre { tail } else { 1.0 - tail }
+    /// The share below a value inside.
+    #[inline(always)]
+    fn below(&self) -> impl Fn(f64) -> f64 {
+        let (centre, b, half) = (self.centre, self.b, self.a + self.b);
+        let (per_linear, per_square) = (0.5 / self.a, 0.125 / (self.a * self.b));
+        #[inline(always)]
+        move |y: f64| {
+            let from_end = half - (y - centre).abs();
+            let (bent, straight) = (
+                from_end * from_end * per_square,
+                (from_end - b) * per_linear,
+            );
+            let tail = if from_end < 2.0 * b { bent } else { straight };
+            if y < centre { tail } else { 1.0 - tail }
+        }
     }
 }
 
@@ -236,15 +302,23 @@ impl Rule for CellSpace {
 
     fn fit<'a>(&'a self, sample: &'a Sample<'a>) -> Box<dyn Fit + 'a> {
         let values = sample.each();
-        let mut best = (f64::INFINITY, &self.choices[0], Vec::new());
+        // The last one's choice is mostly the best again: the others are then soon given up. Which one is
+        // looked at first makes no difference.
+        let likely = self.likely.load(Ordering::Relaxed);
+        let mut order: Vec<usize> = (0..self.choices.len()).collect();
+        order.swap(0, likely);
+        let mut best = (f64::INFINITY, usize::MAX, Vec::new());
         let mut coefficients = Vec::new();
-        for choice in &self.choices {
-            let missed = choice.quadratics.coefficients(values, &mut coefficients);
-            if missed < best.0 || best.2.is_empty() {
-                best = (missed, choice, std::mem::take(&mut coefficients));
+        for number in order {
+            let quadratics = &self.choices[number].quadratics;
+            let missed = quadratics.coefficients(values, best.0, &mut coefficients);
+            if best.1 == usize::MAX || (missed, number) < (best.0, best.1) {
+                best = (missed, number, std::mem::take(&mut coefficients));
             }
         }
-        Box::new(Images(best.1.images(values, &best.2)))
+        let (_, number, coefficients) = best;
+        self.likely.store(number, Ordering::Relaxed);
+        Box::new(Images(self.choices[number].images(values, &coefficients)))
     }
 }
 
@@ -269,11 +343,10 @@ impl Fit for Images {
     }
 
     fn curve(&self, nodes: Nodes) -> Smoothed {
-        let mut sum = Cumulative::new(nodes);
-        for image in &self.0 {
-            let (least, largest) = (image.least(), image.largest());
-            sum.add(image.mass, least, largest, |y| image.below(y));
-        }
+        let sum = pulp::Arch::new().dispatch(Summing {
+            images: &self.0,
+            sum: Cumulative::new(nodes),
+        });
         Smoothed {
             curve: sum.curve(),
             width: 0.0,

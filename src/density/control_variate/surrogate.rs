@@ -20,6 +20,7 @@ use super::features::{Features, degrees};
 use super::regression::Fit;
 use super::sample::{MOST_DIMENSIONS, Sample};
 use nalgebra::{DMatrix, SymmetricEigen};
+use pulp::{Simd, WithSimd};
 use rustfft::num_complex::Complex64;
 
 /// Points that are evaluated side by side.
@@ -184,7 +185,12 @@ impl Surrogate {
     pub fn evaluate(&self, sample: &Sample) -> (Vec<f64>, Vec<f64>) {
         let mut quadratic = vec![0.0; sample.points];
         let mut whole = vec![0.0; sample.points];
-        pulp::Arch::new().dispatch(|| self.fill(sample, &mut quadratic, &mut whole));
+        pulp::Arch::new().dispatch(Fill {
+            surrogate: self,
+            sample,
+            quadratic: &mut quadratic,
+            whole: &mut whole,
+        });
         (quadratic, whole)
     }
 
@@ -236,6 +242,23 @@ impl Surrogate {
             }
             *whole = sum;
         }
+    }
+}
+
+/// The work of [`Surrogate::evaluate`], for the machine's vector units.
+struct Fill<'a> {
+    surrogate: &'a Surrogate,
+    sample: &'a Sample,
+    quadratic: &'a mut [f64],
+    whole: &'a mut [f64],
+}
+
+impl WithSimd for Fill<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.surrogate.fill(self.sample, self.quadratic, self.whole);
     }
 }
 

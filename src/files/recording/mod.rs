@@ -10,6 +10,7 @@
 //! before any work is done. [`Recordings::scan`] then streams the values, checks each chunk's CRC before
 //! it hands out a value of it, and finds out if the file has changed in between.
 
+mod chunks;
 mod coverage;
 mod describe;
 mod descriptor;

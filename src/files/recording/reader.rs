@@ -221,8 +221,8 @@ impl Recordings {
 
     /// Streams the values of the `wanted` quantities in file order, for a block ascending in time.
     ///
-    /// `visit` gets batches of about 4 MiB, always the same for the same files, while the next one is read on
-    /// another thread. Every chunk's CRC has been checked and every value is finite.
+    /// `visit` gets batches of about 4 MiB while the next one is read on another thread; or where there is one
+    /// thread, smaller ones from it. The blocks are always the same for the same files. Every chunk's CRC has been checked and every value is finite.
     ///
     /// # Errors
     /// Names the damaged chunk, or topic, time and point of a value that is not finite; or whatever `visit` returns.
@@ -232,6 +232,9 @@ impl Recordings {
         mut visit: impl FnMut(&[Block<'_>]) -> Result<()>,
     ) -> Result<()> {
         let place_of = |point: u64| place_of(&self.ranges, point);
+        if rayon::current_num_threads() == 1 {
+            return self.scan_alone(wanted, &place_of, &mut visit);
+        }
         std::thread::scope(|scope| {
             let (full, batches) = sync_channel::<Batch>(BATCHES);
             let (emptied, spare) = sync_channel::<Batch>(BATCHES);
@@ -254,6 +257,7 @@ impl Recordings {
                             survey: member,
                             wanted: self.wanted(member, wanted),
                             place_of,
+                            batch_values: scan::BATCH_VALUES,
                         };
                         match scan::read(&plan, batch, &mut give)? {
                             Some(next) => batch = next,
@@ -281,6 +285,38 @@ impl Recordings {
                 .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             visited.and(read)
         })
+    }
+
+    /// The same on this thread alone, in smaller batches.
+    fn scan_alone(
+        &self,
+        wanted: &[usize],
+        place_of: &(dyn Fn(u64) -> usize + Sync),
+        visit: &mut dyn FnMut(&[Block<'_>]) -> Result<()>,
+    ) -> Result<()> {
+        let mut batch = Batch::default();
+        let mut visited = Ok(());
+        for member in &self.members {
+            let plan = Plan {
+                survey: member,
+                wanted: self.wanted(member, wanted),
+                place_of,
+                batch_values: scan::OWN_BATCH_VALUES,
+            };
+            let mut give = |batch: Batch| {
+                visited = visit(&batch.blocks());
+                visited.is_ok().then(|| scan::emptied(batch))
+            };
+            match scan::read(&plan, batch, &mut give)? {
+                Some(next) => batch = next,
+                None => return visited,
+            }
+        }
+        if batch.is_empty() {
+            Ok(())
+        } else {
+            visit(&batch.blocks())
+        }
     }
 
     /// For each channel of a member the quantity's index, if it is wanted.

@@ -69,6 +69,8 @@ pub(super) struct Survey {
     pub provenance: Option<Provenance>,
     /// Where chunks start in the file, to number them.
     pub chunks: Vec<u64>,
+    /// Whether there are chunks, none of them compressed.
+    pub plain: bool,
     /// The points, as ranges that do not touch.
     pub ranges: Vec<Range<u64>>,
 }
@@ -104,6 +106,7 @@ impl Survey {
             match record.opcode {
                 op::CHUNK => {
                     interrupt::check()?;
+                    self.plain = self.chunks.is_empty() || self.plain;
                     self.chunks.push(offset);
                     self.chunk(source, offset, record)?;
                 }
@@ -117,6 +120,7 @@ impl Survey {
     fn chunk(&mut self, source: &mut Source, offset: u64, chunk: RecordAt) -> Result<()> {
         let head = walk::chunk_head(source, chunk)?;
         if head.compressed {
+            self.plain = false;
             let whole = RecordAt {
                 start: offset,
                 ..chunk

@@ -161,7 +161,7 @@ pub(super) struct ChunkHead {
 }
 
 /// Bytes of a chunk's head before the name of its compression: times, size, CRC.
-const BEFORE_COMPRESSION: u64 = 8 + 8 + 8 + 4;
+pub(super) const BEFORE_COMPRESSION: u64 = 8 + 8 + 8 + 4;
 
 /// Reads the head of a chunk.
 pub(super) fn chunk_head(source: &mut Source, chunk: RecordAt) -> Result<ChunkHead> {
