@@ -20,7 +20,7 @@ pub struct IrregularitySpec {
     /// The same by their wavelengths, in place of `wavenumber`.
     pub wavelength: Option<WavelengthSpec>,
     /// Mean over a window or the contact patch, of the random field and of the deterministic profile.
-    pub smoothing: Option<WindowSpec>,
+    pub smoothing: Option<MeanSpec>,
     /// How the random field is represented.
     #[serde(default)]
     pub field: FieldKind,
@@ -74,7 +74,7 @@ pub struct WavelengthSpec {
 /// The mean over positions that a wheel feels in place of the height at one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum WindowSpec {
+pub enum MeanSpec {
     /// Equal weights over a length: transfer function sin(z) / z, z = k length / 2, of waves of wavenumber k.
     MovingAverage(MovingAverageSpec),
     /// Hertz's elliptic pressure over the contact patch: transfer function 2 J1(z) / z, z = k half_length.
@@ -295,13 +295,13 @@ impl IrregularitySpec {
     }
 }
 
-impl WindowSpec {
+impl MeanSpec {
     pub fn build(&self) -> Window {
         match self {
-            WindowSpec::MovingAverage(spec) => Window::MovingAverage {
+            MeanSpec::MovingAverage(spec) => Window::MovingAverage {
                 length: spec.length,
             },
-            WindowSpec::ContactPatch(spec) => Window::ContactPatch {
+            MeanSpec::ContactPatch(spec) => Window::ContactPatch {
                 half_length: spec.half_length,
             },
         }

@@ -69,8 +69,8 @@ pub use excitation::{
     ModulationSpec, WhiteSpec,
 };
 pub use irregularity::{
-    ContactPatchSpec, DeterministicSpec, FieldKind, IrregularitySpec, MovingAverageSpec,
-    ProfileSpec, SineSpec, WavelengthSpec, WavenumberSpec, WindowSpec,
+    ContactPatchSpec, DeterministicSpec, FieldKind, IrregularitySpec, MeanSpec, MovingAverageSpec,
+    ProfileSpec, SineSpec, WavelengthSpec, WavenumberSpec,
 };
 pub use judged::JudgedSimulation;
 pub use judgement::{DirectionKind, FilterSpec, IndexKind, IndexSpec, WeightingKind, WindowSpec};

@@ -38,6 +38,9 @@ pub struct SimulationSpec {
     #[serde(default = "default_gravity")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub gravity: f64,
+    /// Of trains: whether the points are superposed from the responses to unit heights, which linear or rigid contact and
+    /// a random irregularity alone allow; by default where that takes less work than stepping each point.
+    pub superposition: Option<bool>,
     /// Precision of the recorded values.
     #[serde(default)]
     pub precision: Precision,

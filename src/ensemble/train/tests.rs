@@ -1,7 +1,7 @@
 //! Trains against closed forms and published figures.
 
 use super::*;
-use crate::ensemble::{Points, Stepper, Strip, System};
+use crate::ensemble::{Points, Strip, System};
 use crate::system::InitialState;
 use crate::system::train::*;
 

@@ -30,7 +30,6 @@ pub use support::{
     SubgradeSpec,
 };
 pub use track::{BallastedSpec, DirectSpec, SlabTrackSpec, TrackSpec};
-pub use varied::TrainCrossingOf;
 
 pub(super) use misfit::Misfit;
 pub(super) use row::placed;

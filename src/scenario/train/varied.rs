@@ -4,11 +4,9 @@ use serde_json::{Map, Value as Json};
 
 use super::build::{Extent, Run, Specs};
 use crate::Result;
+use crate::ensemble::TrainCrossingOf;
 use crate::scenario::Scenario;
 use crate::system::train::TrainCrossing;
-
-/// A train's crossing by the values of some keys.
-pub type TrainCrossingOf = Box<dyn Fn(&[f64]) -> TrainCrossing + Send + Sync>;
 
 /// Whether the number at `key` says where something is, which all points share.
 pub(in crate::scenario) fn is_geometry(key: &str) -> bool {

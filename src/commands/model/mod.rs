@@ -1,9 +1,10 @@
 //! The system of a scenario, and how it meets a points file.
 
+mod train;
+
 use crate::ensemble::{Chains, Crossings, System, WheelPath};
 use crate::files::points::PointsReader;
 use crate::quantity::Quantity;
-use crate::scenario::train::TrainCrossingOf;
 use crate::scenario::{LoadKind, Scenario, VARIED_KEYS, nearest};
 use crate::system::train::TrainCrossing;
 use crate::system::{Chain, Crossing, Load};
@@ -94,85 +95,9 @@ impl Model {
                 )))
             }
             Model::Chain(chain) => chains(scenario, chain, quantities, points, reader),
-            Model::Train(crossing) => trains(scenario, crossing, points, reader),
+            Model::Train(crossing) => train::trains(scenario, crossing, quantities, points, reader),
         }
     }
-}
-
-/// The tables that a train is made of.
-const TABLES_OF_TRAINS: [&str; 4] = ["bridge.", "vehicle.", "contact.", "track."];
-
-fn trains(
-    scenario: &Scenario,
-    crossing: &TrainCrossing,
-    points: &Path,
-    reader: &PointsReader,
-) -> Result<Box<dyn System>> {
-    let (cars, columns) = match varied_train(scenario, crossing, points, reader)? {
-        None => (crossing.cars.len(), 0),
-        Some(VariedTrain {
-            nominal,
-            columns,
-            crossing_of,
-        }) => {
-            drop(crossing_of);
-            (nominal.cars.len(), columns.len())
-        }
-    };
-    let found = format!("a train of {cars} cars with {columns} random parameters");
-    let expected = "a quarter car: trains cannot be simulated yet";
-    Err(scenario.bad("vehicle.kind", expected, found).into())
-}
-
-/// A train whose parameters differ between points.
-struct VariedTrain {
-    /// With the track that the fastest of all trains needs.
-    nominal: TrainCrossing,
-    /// The places of the random parameters among the points' columns, as `crossing_of` takes their values.
-    columns: Vec<usize>,
-    crossing_of: TrainCrossingOf,
-}
-
-/// The trains of the points; none where no parameter is random. Every value is one that the scenario could have.
-fn varied_train(
-    scenario: &Scenario,
-    crossing: &TrainCrossing,
-    points: &Path,
-    reader: &PointsReader,
-) -> Result<Option<VariedTrain>> {
-    let (columns, keys) = random_parameters(reader, &TABLES_OF_TRAINS);
-    if columns.is_empty() {
-        return Ok(None);
-    }
-    for key in &keys {
-        if !scenario.can_be_random(key) {
-            let expected = "a number of the scenario that may differ between points";
-            let error = super::bad_file(points, key, expected, "a column of this name");
-            let remedy = "leave the column out, or simulate each of its values by itself";
-            return Err(error.remedy(remedy).into());
-        }
-    }
-    let mut fastest: Option<f64> = None;
-    for batch in reader.parameter_batches(0..reader.header().count, 4096)? {
-        let batch = batch?;
-        for (column, key) in columns.iter().zip(&keys) {
-            let values = &batch.parameters[*column];
-            if let Some((row, expected)) = scenario.first_bad(key, values) {
-                let at = format!("{key}: row {}", batch.first_point as usize + row);
-                let found = values[row].to_string();
-                return Err(super::bad_file(points, &at, expected, found).into());
-            }
-            if key == "vehicle.speed" {
-                fastest = values.iter().copied().chain(fastest).reduce(f64::max);
-            }
-        }
-    }
-    let (nominal, crossing_of) = scenario.varied_train(crossing, &keys, fastest)?;
-    Ok(Some(VariedTrain {
-        nominal,
-        columns,
-        crossing_of,
-    }))
 }
 
 /// The points' columns that belong to one of these tables: indices and keys.
