@@ -12,13 +12,17 @@
 //! [`super::meeting`]. Rates and accelerations at a recorded time are those of the two steps beside it, v = (w⁻ + w)/2 and
 //! a = (w − w⁻)/h, forces (F⁻ + F)/2: the scheme's ripple from one step to the next is not in them.
 
-use super::lanes::{Numbers, Row, TRAIN_LANES, each, load, neg_mul_add, store};
+use super::lanes::{
+    Numbers, Row, Shared, TRAIN_LANES, add_products, each, load, neg_mul_add, store,
+};
 use super::meeting::Meeting;
 use super::outputs::Output;
 use super::shape::{
     COMPRESSION, HALF_STEP, INVERSE_STEP, LIGHTNESS, Law, OF_WHEEL, SOFTNESS, STEP, Shape, WEIGHT,
 };
+use super::sparse::Rows;
 use super::state::State;
+use super::window::{Part, Windows};
 use crate::ensemble::Strip;
 use pulp::{Simd, WithSimd};
 use std::ops::Range;
@@ -26,6 +30,7 @@ use std::ops::Range;
 /// Steps of one batch.
 pub(super) struct Kernel<'a, 'b, N> {
     pub shape: &'a Shape,
+    pub windows: &'a Windows,
     pub numbers: N,
     /// The meetings of these steps, the first of them of step `steps.start`.
     pub meetings: &'a [Meeting],
@@ -65,9 +70,13 @@ impl<N: Numbers> Kernel<'_, '_, N> {
         let steps = self.steps.clone();
         for (index, (n, eta)) in steps.zip(rows).enumerate() {
             let meeting = &self.meetings[index];
+            for rows in self.windows.left(shape, n) {
+                self.state.rest(rows);
+            }
+            self.push::<S, W>(simd, n);
             self.forward::<S, W>(simd, n);
             self.meet::<S, W>(simd, meeting, n, eta);
-            self.backward::<S, W>(simd);
+            self.backward::<S, W>(simd, n);
             if n % every == 0 {
                 self.record::<S, W>(simd, n, eta);
             }
@@ -76,16 +85,15 @@ impl<N: Numbers> Kernel<'_, '_, N> {
         }
     }
 
-    /// Ends the step before (its w and F in `now` and `force`), and sweeps forward: y = L⁻¹ r in `next`.
+    /// Adds twice the forces of the step before to r: −Bᵢ Fᵢ − eᵢ Wᵢ.
     #[inline(always)]
-    fn forward<S: Simd, const W: usize>(&mut self, simd: S, n: usize) {
+    fn push<S: Simd, const W: usize>(&mut self, simd: S, n: usize) {
         let shape = self.shape;
         let layout = &shape.layout;
         let state = &mut *self.state;
         let two = simd.splat_f64s(2.0);
         let wheels = shape.wheels.len();
         for (index, wheel) in shape.wheels.iter().enumerate() {
-            // Twice the forces of the step before: −Bᵢ Fᵢ − eᵢ Wᵢ.
             let force: Row<S, W> = load(simd, &state.force.values()[index * TRAIN_LANES..]);
             let doubled = each!(simd, j => simd.mul_f64s(two, force[j]));
             if n > 0 {
@@ -115,61 +123,40 @@ impl<N: Numbers> Kernel<'_, '_, N> {
                 store(simd, values, &r);
             }
         }
-        let h: Row<S, W> = self.numbers.row(simd, layout.constants + STEP);
-        let stiffness = self.numbers.from(layout.stiffness);
-        let damping = self.numbers.from(layout.damping);
-        let lower = self.numbers.from(layout.forward);
-        let pattern = &shape.pattern;
-        let w = S::as_simd_f64s(state.now.values()).0.as_chunks::<W>().0;
-        let y = S::as_mut_simd_f64s(state.next.values_mut())
-            .0
-            .as_chunks_mut::<W>()
-            .0;
-        let u = S::as_mut_simd_f64s(state.displacement.values_mut())
-            .0
-            .as_chunks_mut::<W>()
-            .0;
-        let s = S::as_mut_simd_f64s(state.spring.values_mut())
-            .0
-            .as_chunks_mut::<W>()
-            .0;
-        let r = S::as_mut_simd_f64s(state.load.values_mut())
-            .0
-            .as_chunks_mut::<W>()
-            .0;
-        let minus_two = simd.splat_f64s(-2.0);
-        for row in 0..pattern.size {
-            let mut spring = s[row];
-            for place in pattern.stiffness.range(row) {
-                let k: Row<S, W> = stiffness.row(simd, place);
-                let x = &w[pattern.stiffness.columns[place] as usize];
-                for j in 0..W {
-                    spring[j] = simd.mul_add_f64s(k[j], x[j], spring[j]);
-                }
+    }
+
+    /// Ends the step before (its w in `now`), and sweeps forward: y = L⁻¹ r in `next`.
+    #[inline(always)]
+    fn forward<S: Simd, const W: usize>(&mut self, simd: S, n: usize) {
+        let (shape, windows) = (self.shape, self.windows);
+        let window = windows.at(n);
+        let lower = self.numbers.from(shape.layout.forward);
+        let state = &mut *self.state;
+        let mut sweep = Sweep::<S, W, N> {
+            simd,
+            shape,
+            stiffness: self.numbers.from(shape.layout.stiffness),
+            damping: self.numbers.from(shape.layout.damping),
+            step: self.numbers.row(simd, shape.layout.constants + STEP),
+            w: rows::<S, W>(state.now.values()),
+            y: rows_mut::<S, W>(state.next.values_mut()),
+            u: rows_mut::<S, W>(state.displacement.values_mut()),
+            s: rows_mut::<S, W>(state.spring.values_mut()),
+            r: rows_mut::<S, W>(state.load.values_mut()),
+        };
+        sweep.rows(0..shape.track.start, lower, 0);
+        for part in &window.track {
+            let mut rest = part.rows.clone();
+            if let Some(edge) = windows.edge_of(part) {
+                let own = edge.rows.start..edge.rows.end.min(rest.end);
+                rest.start = own.end;
+                let first = shape.pattern.factor.starts[own.start] as usize;
+                sweep.rows(own, Shared(&edge.forward), first);
             }
-            s[row] = spring;
-            let mut pull = spring;
-            for place in pattern.damping.range(row) {
-                let c: Row<S, W> = damping.row(simd, place);
-                let x = &w[pattern.damping.columns[place] as usize];
-                for j in 0..W {
-                    pull[j] = simd.mul_add_f64s(c[j], x[j], pull[j]);
-                }
-            }
-            let mut load = r[row];
-            for j in 0..W {
-                load[j] = simd.mul_add_f64s(minus_two, pull[j], load[j]);
-                u[row][j] = simd.mul_add_f64s(h[j], w[row][j], u[row][j]);
-            }
-            r[row] = load;
-            for place in pattern.factor.range(row) {
-                let l: Row<S, W> = lower.row(simd, place);
-                let x = &y[pattern.factor.columns[place] as usize];
-                for j in 0..W {
-                    load[j] = simd.mul_add_f64s(l[j], x[j], load[j]);
-                }
-            }
-            y[row] = load;
+            sweep.rows(rest, lower, 0);
+        }
+        if window.modes {
+            sweep.modes(&window.track, lower);
         }
     }
 
@@ -355,30 +342,50 @@ impl<N: Numbers> Kernel<'_, '_, N> {
 
     /// w = L⁻ᵀ D⁻¹ y, in place.
     #[inline(always)]
-    fn backward<S: Simd, const W: usize>(&mut self, simd: S) {
-        let pattern = &self.shape.pattern;
-        let layout = &self.shape.layout;
-        let inverse = self.numbers.from(layout.inverse);
-        let upper = self.numbers.from(layout.backward);
-        let y = S::as_mut_simd_f64s(self.state.next.values_mut())
-            .0
-            .as_chunks_mut::<W>()
-            .0;
-        for row in (0..pattern.size).rev() {
-            let d: Row<S, W> = inverse.row(simd, row);
-            let mut x = y[row];
-            for j in 0..W {
-                x[j] = simd.mul_f64s(d[j], x[j]);
-            }
-            for place in pattern.factor_columns.range(row) {
-                let l: Row<S, W> = upper.row(simd, place);
-                let other = &y[pattern.factor_columns.columns[place] as usize];
-                for j in 0..W {
-                    x[j] = simd.mul_add_f64s(l[j], other[j], x[j]);
-                }
-            }
-            y[row] = x;
+    fn backward<S: Simd, const W: usize>(&mut self, simd: S, n: usize) {
+        let (shape, windows) = (self.shape, self.windows);
+        let window = windows.at(n);
+        let columns = &shape.pattern.factor_columns;
+        let inverse = self.numbers.from(shape.layout.inverse);
+        let upper = self.numbers.from(shape.layout.backward);
+        let y: &mut [Row<S, W>] = rows_mut::<S, W>(self.state.next.values_mut());
+        if window.modes {
+            back::<S, W, N>(
+                simd,
+                columns,
+                shape.modes.clone(),
+                (inverse, 0),
+                (upper, 0),
+                y,
+            );
         }
+        for part in window.track.iter().rev() {
+            let edge = windows.edge_of(part);
+            let own = edge.map_or(part.rows.start, |edge| edge.rows.end.min(part.rows.end));
+            back::<S, W, N>(
+                simd,
+                columns,
+                own..part.rows.end,
+                (inverse, 0),
+                (upper, 0),
+                y,
+            );
+            if let Some(edge) = edge {
+                let rows = part.rows.start..own;
+                let first = columns.starts[rows.start] as usize;
+                let inverse = (Shared(&edge.inverse), rows.start);
+                back::<S, W, _>(
+                    simd,
+                    columns,
+                    rows,
+                    inverse,
+                    (Shared(&edge.backward), first),
+                    y,
+                );
+            }
+        }
+        let cars = 0..shape.track.start;
+        back::<S, W, N>(simd, columns, cars, (inverse, 0), (upper, 0), y);
     }
 
     /// The outputs at the start of step n, between the step before and this one.
@@ -466,6 +473,153 @@ impl<N: Numbers> Kernel<'_, '_, N> {
                 .copy_from_slice(&row[..self.width]);
         }
     }
+}
+
+/// One sweep down the rows: ends a step and eliminates.
+struct Sweep<'a, S: Simd, const W: usize, N> {
+    simd: S,
+    shape: &'a Shape,
+    stiffness: N,
+    damping: N,
+    step: Row<S, W>,
+    w: &'a [Row<S, W>],
+    y: &'a mut [Row<S, W>],
+    u: &'a mut [Row<S, W>],
+    s: &'a mut [Row<S, W>],
+    r: &'a mut [Row<S, W>],
+}
+
+impl<S: Simd, const W: usize, N: Numbers> Sweep<'_, S, W, N> {
+    /// u, s and r of a row at the end of a step; r.
+    #[inline(always)]
+    fn end_step(&mut self, row: usize) -> Row<S, W> {
+        let (simd, pattern) = (self.simd, &self.shape.pattern);
+        // SAFETY: the pattern's columns are rows of the system, which w has one each of; the lists of numbers are those
+        // of the pattern (`Shape::numbers`).
+        let (spring, pull) = unsafe {
+            let (k, c) = (&pattern.stiffness, &pattern.damping);
+            let spring = add_products(
+                simd,
+                self.s[row],
+                self.stiffness,
+                0,
+                k.range(row),
+                &k.columns,
+                self.w,
+            );
+            let pull = add_products(
+                simd,
+                spring,
+                self.damping,
+                0,
+                c.range(row),
+                &c.columns,
+                self.w,
+            );
+            (spring, pull)
+        };
+        self.s[row] = spring;
+        let minus_two = simd.splat_f64s(-2.0);
+        let mut load = self.r[row];
+        let (u, w) = (&mut self.u[row], &self.w[row]);
+        for j in 0..W {
+            load[j] = simd.mul_add_f64s(minus_two, pull[j], load[j]);
+            u[j] = simd.mul_add_f64s(self.step[j], w[j], u[j]);
+        }
+        self.r[row] = load;
+        load
+    }
+
+    /// These rows, with −L in `lower` from the place `first` on.
+    #[inline(always)]
+    fn rows<M: Numbers>(&mut self, rows: Range<usize>, lower: M, first: usize) {
+        let factor = &self.shape.pattern.factor;
+        for row in rows {
+            let load = self.end_step(row);
+            // SAFETY: as above; `lower` has the places of these rows.
+            self.y[row] = unsafe {
+                let places = factor.range(row);
+                add_products(
+                    self.simd,
+                    load,
+                    lower,
+                    first,
+                    places,
+                    &factor.columns,
+                    self.y,
+                )
+            };
+        }
+    }
+
+    /// The modes, which reach over all of the bridge: track by track so short that the cache holds it for all modes.
+    #[inline(always)]
+    fn modes(&mut self, track: &[Part], lower: N) {
+        const SHORT: usize = 64;
+        let shape = self.shape;
+        let factor = &shape.pattern.factor;
+        for row in shape.modes.clone() {
+            self.y[row] = self.end_step(row);
+        }
+        let at = |row: usize, column: usize| {
+            let range = factor.range(row);
+            let columns = &factor.columns[range.clone()];
+            range.start + columns.partition_point(|c| (*c as usize) < column)
+        };
+        for part in track {
+            for first in part.rows.clone().step_by(SHORT) {
+                let end = (first + SHORT).min(part.rows.end);
+                for row in shape.modes.clone() {
+                    let places = at(row, first)..at(row, end);
+                    // SAFETY: as above.
+                    self.y[row] = unsafe {
+                        let sum = self.y[row];
+                        add_products(self.simd, sum, lower, 0, places, &factor.columns, self.y)
+                    };
+                }
+            }
+        }
+        for row in shape.modes.clone() {
+            let places = at(row, shape.modes.start)..factor.range(row).end;
+            // SAFETY: as above.
+            self.y[row] = unsafe {
+                let sum = self.y[row];
+                add_products(self.simd, sum, lower, 0, places, &factor.columns, self.y)
+            };
+        }
+    }
+}
+
+/// Substitutes back over these rows; the numbers of 1/D and of −Lᵀ begin with those of a row and of a place.
+#[inline(always)]
+fn back<S: Simd, const W: usize, N: Numbers>(
+    simd: S,
+    columns: &Rows,
+    rows: Range<usize>,
+    (inverse, first_row): (N, usize),
+    (upper, first): (N, usize),
+    y: &mut [Row<S, W>],
+) {
+    for row in rows.rev() {
+        let d: Row<S, W> = inverse.row(simd, row - first_row);
+        let own = y[row];
+        let scaled = each!(simd, j => simd.mul_f64s(d[j], own[j]));
+        // SAFETY: the pattern's rows are rows of the system; `upper` has the places of these rows.
+        y[row] = unsafe {
+            let places = columns.range(row);
+            add_products(simd, scaled, upper, first, places, &columns.columns, y)
+        };
+    }
+}
+
+#[inline(always)]
+fn rows<S: Simd, const W: usize>(values: &[f64]) -> &[[S::f64s; W]] {
+    S::as_simd_f64s(values).0.as_chunks().0
+}
+
+#[inline(always)]
+fn rows_mut<S: Simd, const W: usize>(values: &mut [f64]) -> &mut [[S::f64s; W]] {
+    S::as_mut_simd_f64s(values).0.as_chunks_mut().0
 }
 
 /// F^(1/3) of δ = G F^(2/3) = gap − κ F for gap > 0, else 0: Newton's method from above on G s² + κ s³ = gap.

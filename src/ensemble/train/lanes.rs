@@ -1,6 +1,7 @@
 //! Vectors of lanes, and numbers that all lanes share or each has for itself.
 
 use pulp::Simd;
+use std::ops::Range;
 
 /// Points that are stepped together: fewer than the quarter car's, since the state of a track has to stay in the cache.
 pub const TRAIN_LANES: usize = 16;
@@ -12,6 +13,12 @@ pub(super) type Row<S, const W: usize> = [<S as Simd>::f64s; W];
 pub(super) trait Numbers: Copy {
     /// Number `index` in all lanes.
     fn row<S: Simd, const W: usize>(self, simd: S, index: usize) -> Row<S, W>;
+
+    /// The same, unchecked.
+    ///
+    /// # Safety
+    /// The list has that number.
+    unsafe fn row_unchecked<S: Simd, const W: usize>(self, simd: S, index: usize) -> Row<S, W>;
 
     /// The numbers from `first` on.
     fn from(self, first: usize) -> Self;
@@ -28,6 +35,12 @@ impl Numbers for Shared<'_> {
     }
 
     #[inline(always)]
+    unsafe fn row_unchecked<S: Simd, const W: usize>(self, simd: S, index: usize) -> Row<S, W> {
+        // SAFETY: the caller's.
+        [simd.splat_f64s(unsafe { *self.0.get_unchecked(index) }); W]
+    }
+
+    #[inline(always)]
     fn from(self, first: usize) -> Self {
         Shared(&self.0[first..])
     }
@@ -41,6 +54,11 @@ impl Numbers for PerLane<'_> {
     #[inline(always)]
     fn row<S: Simd, const W: usize>(self, simd: S, index: usize) -> Row<S, W> {
         load(simd, &self.0[index * TRAIN_LANES..])
+    }
+
+    #[inline(always)]
+    unsafe fn row_unchecked<S: Simd, const W: usize>(self, simd: S, index: usize) -> Row<S, W> {
+        self.row(simd, index)
     }
 
     #[inline(always)]
@@ -80,4 +98,32 @@ pub(super) use each;
 #[inline(always)]
 pub(super) fn neg_mul_add<S: Simd>(simd: S, a: S::f64s, b: S::f64s, c: S::f64s) -> S::f64s {
     simd.mul_add_f64s(simd.neg_f64s(a), b, c)
+}
+
+/// Adds Σ c x over the entries at `places` of a sparse row, whose first number is that of the place `first`.
+///
+/// # Safety
+/// `places` lie in `columns`, all columns in `x`, and the numbers reach to the last place.
+#[inline(always)]
+pub(super) unsafe fn add_products<S: Simd, const W: usize, N: Numbers>(
+    simd: S,
+    mut sum: Row<S, W>,
+    numbers: N,
+    first: usize,
+    places: Range<usize>,
+    columns: &[u32],
+    x: &[Row<S, W>],
+) -> Row<S, W> {
+    for place in places {
+        // SAFETY: the caller's.
+        let (c, x) = unsafe {
+            let c: Row<S, W> = numbers.row_unchecked(simd, place - first);
+            let column = *columns.get_unchecked(place) as usize;
+            (c, x.get_unchecked(column))
+        };
+        for j in 0..W {
+            sum[j] = simd.mul_add_f64s(c[j], x[j], sum[j]);
+        }
+    }
+    sum
 }

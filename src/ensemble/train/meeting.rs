@@ -6,6 +6,7 @@
 
 use super::lanes::{Numbers, Row, TRAIN_LANES, each, load, store};
 use super::shape::{HALF_STEP, Law, OF_WHEEL, RAIL_SOFTNESS, SOFTNESS, Shape};
+use super::window::Window;
 use pulp::Simd;
 use std::ops::Range;
 
@@ -68,6 +69,7 @@ impl Finder {
         simd: S,
         shape: &Shape,
         numbers: N,
+        window: &Window,
         step: usize,
         meeting: &mut Meeting,
     ) {
@@ -76,7 +78,7 @@ impl Finder {
         meeting.reaches.clear();
         meeting.columns.clear();
         for wheel in 0..shape.wheels.len() {
-            self.column::<S, W, N>(simd, shape, numbers, step, wheel, meeting);
+            self.column::<S, W, N>(simd, shape, numbers, window, (step, wheel), meeting);
         }
         self.yielding::<S, W, N>(simd, shape, numbers, step, meeting);
         if shape.laws.iter().all(|law| *law != Law::Hertz) {
@@ -90,8 +92,8 @@ impl Finder {
         simd: S,
         shape: &Shape,
         numbers: N,
-        step: usize,
-        wheel: usize,
+        window: &Window,
+        (step, wheel): (usize, usize),
         meeting: &mut Meeting,
     ) {
         let width = W * S::F64_LANES;
@@ -126,7 +128,9 @@ impl Finder {
         if let (Some(first), Some(last)) = (first, last) {
             let mut row = first;
             let mut quiet = 0;
-            while row < shape.track.end {
+            let within = window.track.iter().find(|part| part.rows.contains(&first));
+            let end = within.map_or(first, |part| part.rows.end);
+            while row < end {
                 self.eliminate::<S, W, N>(simd, row, factor.range(row), shape, lower);
                 let value = &self.column[row * width..(row + 1) * width];
                 quiet = if value.iter().all(|g| g.abs() < GONE) {
@@ -141,7 +145,8 @@ impl Finder {
             }
             reach.track = first..row;
         }
-        let reaches_modes = !shape.modes.is_empty()
+        let reaches_modes = window.modes
+            && !shape.modes.is_empty()
             && (!reach.track.is_empty()
                 || place.terms.iter().any(|(r, _)| shape.modes.contains(r)));
         if reaches_modes {

@@ -11,6 +11,7 @@ mod stepper;
 mod superposition;
 #[cfg(test)]
 mod tests;
+mod window;
 
 pub use lanes::TRAIN_LANES;
 pub use superposition::Superposition;
@@ -22,6 +23,7 @@ use lanes::Shared;
 use meeting::{Finder, Meeting};
 use shape::{Law, Shape};
 use stepper::TrainStepper;
+use window::Windows;
 
 /// Meetings that all points share are kept up to this many numbers; larger ones are found again for each batch.
 const MOST_KEPT: usize = 1 << 24;
@@ -35,6 +37,8 @@ pub struct Trains {
     numbers: Vec<f64>,
     /// Of all steps; empty where they differ between points or would be too many.
     meetings: Vec<Meeting>,
+    /// The rows that move at each step.
+    windows: Windows,
     lifted: Vec<Vec<Vec<f64>>>,
     /// Of every wheel in the middle of every step; of every wheel at the start.
     path: WheelPath,
@@ -76,6 +80,7 @@ impl Trains {
     ) -> Result<Trains, Refusal> {
         let times = crossing.times();
         let mut trains = Trains::on(crossing, quantities, grid, times)?;
+        trains.windows = trains.shape.windows().ok_or(Refusal::Indefinite)?;
         trains.keep_meetings();
         Ok(trains)
     }
@@ -89,6 +94,8 @@ impl Trains {
     ///
     /// # Errors
     /// See [`Refusal`].
+    ///
+    /// The whole track is solved for, since factors of windows would differ from point to point.
     pub fn varied(
         crossing: TrainCrossing,
         quantities: &[Quantity],
@@ -139,6 +146,7 @@ impl Trains {
         let path = WheelPath::new(&positions, start, spacing, count).ok_or_else(off)?;
         let at = WheelPath::new(&at_start, start, spacing, count).ok_or_else(off)?;
         Ok(Trains {
+            windows: Windows::whole(&shape),
             lifted: shape.lifted(),
             shape,
             numbers,
@@ -169,7 +177,8 @@ impl Trains {
 
     fn find(&self, finder: &mut Finder, step: usize, meeting: &mut Meeting) {
         let numbers = Shared(&self.numbers);
-        finder.find::<_, 1, _>(pulp::Scalar, &self.shape, numbers, step, meeting);
+        let window = self.windows.at(step);
+        finder.find::<_, 1, _>(pulp::Scalar, &self.shape, numbers, window, step, meeting);
     }
 }
 

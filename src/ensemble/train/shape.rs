@@ -2,6 +2,7 @@
 
 use super::outputs::Outputs;
 use super::sparse::{Factor, Lower, Pattern};
+use super::window::Windows;
 use crate::quantity::Quantity;
 use crate::system::InitialState;
 use crate::system::train::{Assembly, Contact, Place, TrainCrossing, TrainWheel};
@@ -29,6 +30,8 @@ pub struct Shape {
     pub cars: Vec<Range<usize>>,
     pub track: Range<usize>,
     pub modes: Range<usize>,
+    /// Of each fastener, its first row.
+    pub fasteners: Vec<usize>,
     /// What carries each wheel in the middle of each step, `[step][wheel]`.
     pub places: Vec<Place>,
     pub outputs: Outputs,
@@ -119,6 +122,7 @@ impl Shape {
             cars,
             track: after_cars..first_mode,
             modes: first_mode..matrices.size,
+            fasteners: assembly.track.map_or_else(Vec::new, |track| track.firsts),
             places,
             outputs,
             layout,
@@ -141,12 +145,10 @@ impl Shape {
     /// Matrices that are not positive definite: values that no structure has.
     pub fn numbers(&self, crossing: &TrainCrossing) -> Option<Vec<f64>> {
         let assembly = crossing.assembly();
-        let h = self.crossing.time_step * self.crossing.speed / crossing.speed;
+        let h = self.step(crossing);
         let lower = self.pattern.collect(&assembly.matrices.values);
-        let (m, c, k) = (&lower.mass, &lower.damping, &lower.stiffness);
-        let dynamic: Vec<f64> = (0..m.len())
-            .map(|p| 2.0 / h * m[p] + c[p] + 0.5 * h * k[p])
-            .collect();
+        let (c, k) = (&lower.damping, &lower.stiffness);
+        let dynamic = dynamic(&lower, h);
         let factor = self.pattern.factorise(&dynamic)?;
         let mut list = Vec::with_capacity(self.layout.size);
         let rigidity = |crossing: &TrainCrossing| {
@@ -163,7 +165,7 @@ impl Shape {
         }
         list.extend(&factor.inverse);
         list.extend(factor.lower.iter().map(|l| -l));
-        list.extend(self.pattern.by_columns(&factor).map(|l| -l));
+        list.extend(self.pattern.by_columns(&factor, 0..self.size()).map(|l| -l));
         list.extend(self.pattern.whole_stiffness(k).map(|k| h * k));
         list.extend(self.pattern.whole_damping(c));
         self.outputs
@@ -171,6 +173,22 @@ impl Shape {
         list.extend(self.start(crossing, &assembly, &lower)?);
         debug_assert_eq!(list.len(), self.layout.size);
         Some(list)
+    }
+
+    /// h of a crossing (s).
+    fn step(&self, crossing: &TrainCrossing) -> f64 {
+        self.crossing.time_step * self.crossing.speed / crossing.speed
+    }
+
+    /// The rows that move at each step of the shape's own crossing.
+    pub fn windows(&self) -> Option<Windows> {
+        let Some(margin) = self.crossing.track.as_ref().and_then(|track| track.window) else {
+            return Some(Windows::whole(self));
+        };
+        let values = self.crossing.assembly().matrices.values;
+        let lower = dynamic(&self.pattern.collect(&values), self.crossing.time_step);
+        let factor = self.pattern.factorise(&lower)?;
+        Some(Windows::about_train(self, margin, &lower, &factor))
     }
 
     /// The displacements at rest under the train at its first place, on a smooth track.
@@ -246,6 +264,14 @@ impl TrainCrossing {
             .map(|n| n as f64 * self.time_step)
             .collect()
     }
+}
+
+/// A = 2M/h + C + h K/2.
+fn dynamic(lower: &Lower, h: f64) -> Vec<f64> {
+    let parts = lower.mass.iter().zip(&lower.damping).zip(&lower.stiffness);
+    parts
+        .map(|((m, c), k)| 2.0 / h * m + c + 0.5 * h * k)
+        .collect()
 }
 
 fn law(crossing: &TrainCrossing, wheel: &TrainWheel) -> Law {

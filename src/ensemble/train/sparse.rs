@@ -2,6 +2,8 @@
 //!
 //! The pattern is found once; numbers are filled in for every set of parameters.
 
+use std::ops::Range;
+
 /// Rows of (column, place of the value).
 #[derive(Debug, Clone, Default)]
 pub struct Rows {
@@ -144,36 +146,83 @@ impl Pattern {
             lower: vec![0.0; self.factor.columns.len()],
             inverse: vec![0.0; self.size],
         };
-        // yⱼ = Lᵢⱼ Dⱼ of the row i in hand.
         let mut scaled = vec![0.0; self.size];
         for row in 0..self.size {
-            let own = self.lower.range(row);
-            for place in own.clone() {
-                scaled[self.lower.columns[place] as usize] = lower[place];
-            }
-            let mut pivot = scaled[row];
-            for place in self.factor.range(row) {
-                let column = self.factor.columns[place] as usize;
-                let inner: f64 = self
-                    .factor
-                    .range(column)
-                    .map(|k| factor.lower[k] * scaled[self.factor.columns[k] as usize])
-                    .sum();
-                scaled[column] -= inner;
-                let l = scaled[column] * factor.inverse[column];
-                factor.lower[place] = l;
-                pivot -= l * scaled[column];
-            }
-            if pivot.is_nan() || pivot <= 0.0 {
-                return None;
-            }
-            factor.inverse[row] = 1.0 / pivot;
-            scaled[row] = 0.0;
-            for place in self.factor.range(row) {
-                scaled[self.factor.columns[place] as usize] = 0.0;
-            }
+            self.factorise_row(lower, row, 0, &mut factor, &mut scaled)?;
         }
         Some(factor)
+    }
+
+    /// The factor of the principal block that begins at row `from`, as far as it differs from the whole factor: the end of
+    /// those rows. `work` is the whole factor and is left as it was but for these rows.
+    pub fn factorise_from(
+        &self,
+        lower: &[f64],
+        from: usize,
+        end: usize,
+        work: &mut Factor,
+        scaled: &mut [f64],
+    ) -> usize {
+        let mut same = 0;
+        for row in from..end {
+            let range = self.factor.range(row);
+            let before: Vec<f64> = work.lower[range.clone()].to_vec();
+            let inverse = work.inverse[row];
+            self.factorise_row(lower, row, from, work, scaled)
+                .expect("a principal block of a positive definite matrix");
+            let close = |a: f64, b: f64| (a - b).abs() <= 1e-15 * b.abs().max(1e-3);
+            let pairs = before.iter().zip(&work.lower[range]);
+            let unchanged = (work.inverse[row] / inverse - 1.0).abs() <= 1e-15;
+            same = match unchanged && pairs.into_iter().all(|(a, b)| close(*b, *a)) {
+                true => same + 1,
+                false => 0,
+            };
+            if same == 16 {
+                return row + 1;
+            }
+        }
+        end
+    }
+
+    /// A row of the factor of the principal block from row `from` on; `scaled`, zero before and after, takes yⱼ = Lᵢⱼ Dⱼ.
+    fn factorise_row(
+        &self,
+        lower: &[f64],
+        row: usize,
+        from: usize,
+        factor: &mut Factor,
+        scaled: &mut [f64],
+    ) -> Option<()> {
+        for place in self.lower.range(row) {
+            scaled[self.lower.columns[place] as usize] = lower[place];
+        }
+        let mut pivot = scaled[row];
+        for place in self.factor.range(row) {
+            let column = self.factor.columns[place] as usize;
+            if column < from {
+                scaled[column] = 0.0;
+                factor.lower[place] = 0.0;
+                continue;
+            }
+            let inner: f64 = self
+                .factor
+                .range(column)
+                .map(|k| factor.lower[k] * scaled[self.factor.columns[k] as usize])
+                .sum();
+            scaled[column] -= inner;
+            let l = scaled[column] * factor.inverse[column];
+            factor.lower[place] = l;
+            pivot -= l * scaled[column];
+        }
+        scaled[row] = 0.0;
+        for place in self.factor.range(row) {
+            scaled[self.factor.columns[place] as usize] = 0.0;
+        }
+        if pivot.is_nan() || pivot <= 0.0 {
+            return None;
+        }
+        factor.inverse[row] = 1.0 / pivot;
+        Some(())
     }
 
     /// A⁻¹ b in place of b.
@@ -212,9 +261,15 @@ impl Pattern {
         self.damping_slots.iter().map(|slot| lower[*slot as usize])
     }
 
-    /// Values of L by columns.
-    pub fn by_columns<'a>(&'a self, factor: &'a Factor) -> impl Iterator<Item = f64> + 'a {
-        self.column_slots
+    /// Values of L by columns, of these columns.
+    pub fn by_columns<'a>(
+        &'a self,
+        factor: &'a Factor,
+        columns: Range<usize>,
+    ) -> impl Iterator<Item = f64> + 'a {
+        let starts = &self.factor_columns.starts;
+        let places = starts[columns.start] as usize..starts[columns.end] as usize;
+        self.column_slots[places]
             .iter()
             .map(|slot| factor.lower[*slot as usize])
     }

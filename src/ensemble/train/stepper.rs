@@ -6,6 +6,7 @@ use super::lanes::{PerLane, Shared, TRAIN_LANES};
 use super::meeting::{Finder, Meeting};
 use super::shape::Shape;
 use super::state::State;
+use super::window::Window;
 use crate::ensemble::path::cubic;
 use crate::ensemble::{Divergence, Points, Stepper, Strip, System};
 use pulp::{Arch, Simd, WithSimd};
@@ -132,12 +133,14 @@ impl TrainStepper<'_> {
                     finder: &mut self.finder,
                     shape,
                     numbers: PerLane(&self.rows),
+                    window: trains.windows.at(step),
                     step,
                     meeting,
                 });
             }
             self.arch.dispatch(Kernel {
                 shape,
+                windows: &trains.windows,
                 numbers: PerLane(&self.rows),
                 meetings: &self.meetings,
                 varied: true,
@@ -159,6 +162,7 @@ impl TrainStepper<'_> {
         };
         self.arch.dispatch(Kernel {
             shape,
+            windows: &trains.windows,
             numbers: Shared(&trains.numbers),
             meetings,
             varied: false,
@@ -205,6 +209,7 @@ struct Find<'a> {
     finder: &'a mut Finder,
     shape: &'a Shape,
     numbers: PerLane<'a>,
+    window: &'a Window,
     step: usize,
     meeting: &'a mut Meeting,
 }
@@ -218,14 +223,18 @@ impl WithSimd for Find<'_> {
             finder,
             shape,
             numbers,
+            window,
             step,
             meeting,
         } = self;
         match S::F64_LANES {
-            8 => finder.find::<S, { TRAIN_LANES / 8 }, _>(simd, shape, numbers, step, meeting),
-            4 => finder.find::<S, { TRAIN_LANES / 4 }, _>(simd, shape, numbers, step, meeting),
-            2 => finder.find::<S, { TRAIN_LANES / 2 }, _>(simd, shape, numbers, step, meeting),
-            _ => finder.find::<S, TRAIN_LANES, _>(simd, shape, numbers, step, meeting),
+            8 => finder
+                .find::<S, { TRAIN_LANES / 8 }, _>(simd, shape, numbers, window, step, meeting),
+            4 => finder
+                .find::<S, { TRAIN_LANES / 4 }, _>(simd, shape, numbers, window, step, meeting),
+            2 => finder
+                .find::<S, { TRAIN_LANES / 2 }, _>(simd, shape, numbers, window, step, meeting),
+            _ => finder.find::<S, TRAIN_LANES, _>(simd, shape, numbers, window, step, meeting),
         }
     }
 }

@@ -104,6 +104,7 @@ pub(super) fn ballasted(start: f64, end: f64) -> Track {
                 mass: 1062.8,
             },
         }),
+        window: None,
     }
 }
 
@@ -266,6 +267,7 @@ fn standing_wheel_on_a_bed() {
             damping: 1e3,
         },
         support: Support::Direct,
+        window: None,
     };
     let case = TrainCrossing {
         cars: train(Car::MovingMass { mass: 8000.0 }, 1, 0.0),

@@ -15,6 +15,9 @@ use crate::system::train::{Support, Track};
 /// Track where `before` or `after` are not given (m).
 const MARGIN: f64 = 20.0;
 
+/// The window where it is not given (m).
+const WINDOW: f64 = 12.0;
+
 /// Fasteners, at most.
 const MOST_FASTENERS: f64 = 1e6;
 
@@ -155,6 +158,7 @@ impl TrackSpec {
             rail: values.rail,
             fastener: values.fastener,
             support,
+            window: Some(line.window.unwrap_or(WINDOW)),
         }))
     }
 }

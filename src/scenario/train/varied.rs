@@ -20,7 +20,9 @@ pub(in crate::scenario) fn is_geometry(key: &str) -> bool {
                 | ["front" | "rear", "distance"]
                 | ["axle", _, "behind"]
         ),
-        ["track", "before" | "after" | "start"] | ["track", "fastener", "spacing"] => true,
+        ["track", "before" | "after" | "start" | "window"] | ["track", "fastener", "spacing"] => {
+            true
+        }
         _ => false,
     }
 }

@@ -34,6 +34,8 @@ pub struct TrackRows {
     pub step: f64,
     /// EI (N m²) of the rail.
     pub rigidity: f64,
+    /// Of each fastener, its first row.
+    pub firsts: Vec<usize>,
     /// Of each node of the rail: the row of its deflection; the slope's is the next.
     pub rail: Vec<usize>,
     /// Of each fastener, where the track has them.
@@ -228,6 +230,7 @@ impl Track {
             start: self.start,
             step,
             rigidity: self.rail.flexural_rigidity,
+            firsts: Vec::new(),
             rail: Vec::new(),
             sleepers: Vec::new(),
             ballast: Vec::new(),
@@ -238,6 +241,7 @@ impl Track {
         for fastener in 0..self.fasteners {
             let position = self.position(fastener);
             let on_deck = deck.is_some_and(|deck| deck.carries(position));
+            rows.firsts.push(matrices.size);
             let below = match &self.support {
                 Support::Direct => None,
                 Support::Ballasted(ballast) => {

@@ -15,6 +15,8 @@ pub struct Track {
     pub rail: Rail,
     pub fastener: Fastener,
     pub support: Support,
+    /// The track is solved for so far about the train and the bridge only (m); none: all of it.
+    pub window: Option<f64>,
 }
 
 /// Both rails as an Euler-Bernoulli beam.

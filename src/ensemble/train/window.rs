@@ -1,0 +1,190 @@
+//! The rows that move: the track about the train and on the bridge.
+//!
+//! Rail waves hardly leave the train, so that a step solves only for the track from some metres behind the last wheel to
+//! as many before the first, and, from when the train comes to it, for the bridge and the track on it. A principal block of
+//! A has a factor of its own; but it differs from that of the whole in the first rows only, some metres at its left end.
+
+use super::shape::Shape;
+use super::sparse::Factor;
+use std::ops::Range;
+
+/// The rows that move at every step.
+#[derive(Debug, Clone, Default)]
+pub struct Windows {
+    /// Of each step, which of the windows.
+    of_step: Vec<u32>,
+    windows: Vec<Window>,
+    edges: Vec<Edge>,
+}
+
+/// Rows that move together: ascending, apart from each other; cars and modes besides.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Window {
+    pub track: Vec<Part>,
+    /// The bridge's modes move.
+    pub modes: bool,
+}
+
+/// A range of rows, of which the first ones have a factor of their own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    pub rows: Range<usize>,
+    /// Which of the edges; none where the block begins with the track.
+    pub edge: Option<usize>,
+}
+
+/// The factor at the left end of a block: 1/D, −L by rows and by columns, of its rows.
+#[derive(Debug, Clone)]
+pub struct Edge {
+    pub rows: Range<usize>,
+    pub inverse: Vec<f64>,
+    pub forward: Vec<f64>,
+    pub backward: Vec<f64>,
+}
+
+impl Windows {
+    /// All rows at every step.
+    pub fn whole(shape: &Shape) -> Windows {
+        let whole = Part {
+            rows: shape.track.clone(),
+            edge: None,
+        };
+        Windows {
+            of_step: vec![0; shape.crossing.steps + 1],
+            windows: vec![Window {
+                track: vec![whole],
+                modes: true,
+            }],
+            edges: Vec::new(),
+        }
+    }
+
+    /// The track within `margin` (m) of the train and of the bridge; `lower` is the matrix A, `factor` its factor.
+    pub fn about_train(shape: &Shape, margin: f64, lower: &[f64], factor: &Factor) -> Windows {
+        let Some(track) = &shape.crossing.track else {
+            return Windows::whole(shape);
+        };
+        let last = shape
+            .wheels
+            .iter()
+            .map(|wheel| wheel.behind)
+            .fold(0.0, f64::max);
+        // The first row of each fastener, and the end of the track.
+        let firsts = &shape.fasteners;
+        let fastener = |x: f64| {
+            let at = ((x - track.start) / track.spacing).floor().max(0.0) as usize;
+            at.min(track.fasteners - 1)
+        };
+        let rows = |from: f64, to: f64| {
+            let end = fastener(to) + 1;
+            let end = firsts.get(end + 1).copied().unwrap_or(shape.track.end);
+            firsts[fastener(from)]..end
+        };
+        let bridge = shape
+            .crossing
+            .deck
+            .as_ref()
+            .map(|deck| rows(-margin, deck.length() + margin));
+        let mut all = Windows::default();
+        let mut work = factor.clone();
+        let mut scaled = vec![0.0; shape.size()];
+        let mut reached = false;
+        for step in 0..=shape.crossing.steps {
+            let first = shape.crossing.middle(step);
+            let train = rows(first - last - margin, first + margin);
+            let mut ranges = vec![train.clone()];
+            if let Some(bridge) = &bridge {
+                reached |= train.end >= bridge.start;
+                if reached && train.start <= bridge.end {
+                    ranges = vec![train.start.min(bridge.start)..train.end.max(bridge.end)];
+                } else if reached {
+                    ranges = vec![bridge.clone(), train];
+                }
+            }
+            let known = all.windows.last().is_some_and(|window| {
+                let same = window.track.iter().map(|part| &part.rows).eq(&ranges);
+                same && window.modes == reached
+            });
+            if !known {
+                let track = ranges.into_iter().map(|rows| {
+                    let edge = all.edge(shape, &rows, lower, factor, &mut work, &mut scaled);
+                    Part { rows, edge }
+                });
+                let track = track.collect();
+                all.windows.push(Window {
+                    track,
+                    modes: reached,
+                });
+            }
+            all.of_step.push(all.windows.len() as u32 - 1);
+        }
+        all
+    }
+
+    /// The window of a step.
+    pub fn at(&self, step: usize) -> &Window {
+        &self.windows[self.of_step[step] as usize]
+    }
+
+    /// The edge of a part.
+    pub fn edge_of(&self, part: &Part) -> Option<&Edge> {
+        part.edge.map(|edge| &self.edges[edge])
+    }
+
+    /// The rows that move no longer from this step on.
+    pub fn left(&self, shape: &Shape, step: usize) -> Vec<Range<usize>> {
+        let (Some(before), now) = (step.checked_sub(1), self.of_step[step]) else {
+            return Vec::new();
+        };
+        if self.of_step[before] == now {
+            return Vec::new();
+        }
+        let mut still = vec![false; shape.size()];
+        for part in &self.at(step).track {
+            still[part.rows.clone()].fill(true);
+        }
+        let rows = self
+            .at(before)
+            .track
+            .iter()
+            .flat_map(|part| part.rows.clone());
+        rows.filter(|row| !still[*row])
+            .map(|row| row..row + 1)
+            .collect()
+    }
+
+    fn edge(
+        &mut self,
+        shape: &Shape,
+        rows: &Range<usize>,
+        lower: &[f64],
+        factor: &Factor,
+        work: &mut Factor,
+        scaled: &mut [f64],
+    ) -> Option<usize> {
+        if rows.start == shape.track.start {
+            return None;
+        }
+        if let Some(known) = self
+            .edges
+            .iter()
+            .rposition(|edge| edge.rows.start == rows.start)
+        {
+            return Some(known);
+        }
+        let pattern = &shape.pattern;
+        let end = pattern.factorise_from(lower, rows.start, shape.track.end, work, scaled);
+        let own = rows.start..end;
+        let places =
+            pattern.factor.starts[own.start] as usize..pattern.factor.starts[own.end] as usize;
+        self.edges.push(Edge {
+            inverse: work.inverse[own.clone()].to_vec(),
+            forward: work.lower[places.clone()].iter().map(|l| -l).collect(),
+            backward: pattern.by_columns(work, own.clone()).map(|l| -l).collect(),
+            rows: own.clone(),
+        });
+        work.lower[places.clone()].copy_from_slice(&factor.lower[places]);
+        work.inverse[own.clone()].copy_from_slice(&factor.inverse[own]);
+        Some(self.edges.len() - 1)
+    }
+}
