@@ -81,7 +81,7 @@ fn crossing(contact: Contact, cars: usize, track: f64) -> TrainCrossing {
                     mass: 1062.8,
                 },
             }),
-            window: Some(12.0),
+            window: Some(8.0),
         }),
         deck: Some(Deck {
             spans: vec![48.0],

@@ -70,9 +70,7 @@ impl<N: Numbers> Kernel<'_, '_, N> {
         let steps = self.steps.clone();
         for (index, (n, eta)) in steps.zip(rows).enumerate() {
             let meeting = &self.meetings[index];
-            for rows in self.windows.left(shape, n) {
-                self.state.rest(rows);
-            }
+            self.change::<S, W>(simd, n);
             self.push::<S, W>(simd, n);
             self.forward::<S, W>(simd, n);
             self.meet::<S, W>(simd, meeting, n, eta);
@@ -82,6 +80,50 @@ impl<N: Numbers> Kernel<'_, '_, N> {
             }
             std::mem::swap(&mut self.state.now, &mut self.state.next);
             std::mem::swap(&mut self.state.force, &mut self.state.force_next);
+        }
+    }
+
+    /// Rows beside the window's right end are held at rest; what the rows that move do to them is
+    /// kept, in spring forces and in momentum, r = p − s with p = 2 (M v)/h, p⁺ = 4 (M w)/h − p: released without their
+    /// neighbours' share they would be struck, and the blows of one after the other would add up along the track.
+    #[inline(always)]
+    fn change<S: Simd, const W: usize>(&mut self, simd: S, n: usize) {
+        let (shape, windows) = (self.shape, self.windows);
+        let (k, c) = (&shape.pattern.stiffness, &shape.pattern.damping);
+        let stiffness = self.numbers.from(shape.layout.stiffness);
+        let damping = self.numbers.from(shape.layout.damping);
+        let mass = Shared(&windows.mass);
+        let zero = [simd.splat_f64s(0.0); W];
+        let two = simd.splat_f64s(2.0);
+        for (row, moves) in windows.held(n) {
+            let range = row * TRAIN_LANES..;
+            let w = rows::<S, W>(self.state.now.values());
+            let s: Row<S, W> = load(simd, &self.state.spring.values()[range.clone()]);
+            let r: Row<S, W> = load(simd, &self.state.load.values()[range.clone()]);
+            // SAFETY: as in `Sweep::end_step`; the masses are in the pattern of the stiffness.
+            let (spring, momentum, pull) = unsafe {
+                (
+                    add_products(simd, s, stiffness, 0, k.range(row), &k.columns, w),
+                    add_products(simd, zero, mass, 0, k.range(row), &k.columns, w),
+                    add_products(simd, zero, damping, 0, c.range(row), &c.columns, w),
+                )
+            };
+            let p = each!(simd, j => {
+                let before = simd.add_f64s(r[j], s[j]);
+                simd.sub_f64s(simd.mul_f64s(two, momentum[j]), before)
+            });
+            let (s, r) = if moves {
+                // The end of a step takes 2 (s⁺ + C w) from r.
+                let r = each!(simd, j => {
+                    let taken = simd.mul_add_f64s(two, pull[j], spring[j]);
+                    simd.add_f64s(p[j], taken)
+                });
+                (s, r)
+            } else {
+                (spring, each!(simd, j => simd.sub_f64s(p[j], spring[j])))
+            };
+            store(simd, &mut self.state.spring.values_mut()[range.clone()], &s);
+            store(simd, &mut self.state.load.values_mut()[range], &r);
         }
     }
 
@@ -125,13 +167,18 @@ impl<N: Numbers> Kernel<'_, '_, N> {
         }
     }
 
-    /// Ends the step before (its w in `now`), and sweeps forward: y = L⁻¹ r in `next`.
+    /// Ends the step before (its w in `now`), and sweeps forward: y = L⁻¹ r in `next`. Rows that the window leaves end that
+    /// step as well, and rest from then on.
     #[inline(always)]
     fn forward<S: Simd, const W: usize>(&mut self, simd: S, n: usize) {
         let (shape, windows) = (self.shape, self.windows);
         let window = windows.at(n);
         let lower = self.numbers.from(shape.layout.forward);
+        let left = windows.left(n);
         let state = &mut *self.state;
+        for row in &left {
+            state.next.values_mut()[row * TRAIN_LANES..(row + 1) * TRAIN_LANES].fill(0.0);
+        }
         let mut sweep = Sweep::<S, W, N> {
             simd,
             shape,
@@ -157,6 +204,12 @@ impl<N: Numbers> Kernel<'_, '_, N> {
         }
         if window.modes {
             sweep.modes(&window.track, lower);
+        }
+        for row in &left {
+            sweep.end_step(*row);
+        }
+        for row in &left {
+            state.now.values_mut()[row * TRAIN_LANES..(row + 1) * TRAIN_LANES].fill(0.0);
         }
     }
 
@@ -564,7 +617,12 @@ impl<S: Simd, const W: usize, N: Numbers> Sweep<'_, S, W, N> {
         let at = |row: usize, column: usize| {
             let range = factor.range(row);
             let columns = &factor.columns[range.clone()];
-            range.start + columns.partition_point(|c| (*c as usize) < column)
+            // From the first row that a mode is coupled to, its row is full.
+            let full = column.saturating_sub(columns.first().map_or(0, |c| *c as usize));
+            match columns.get(full) {
+                Some(found) if *found as usize == column => range.start + full,
+                _ => range.start + columns.partition_point(|c| (*c as usize) < column),
+            }
         };
         for part in track {
             for first in part.rows.clone().step_by(SHORT) {

@@ -186,9 +186,15 @@ impl Shape {
             return Some(Windows::whole(self));
         };
         let values = self.crossing.assembly().matrices.values;
-        let lower = dynamic(&self.pattern.collect(&values), self.crossing.time_step);
+        let parts = self.pattern.collect(&values);
+        let lower = dynamic(&parts, self.crossing.time_step);
         let factor = self.pattern.factorise(&lower)?;
-        Some(Windows::about_train(self, margin, &lower, &factor))
+        Some(Windows::about_train(
+            self,
+            margin,
+            (&lower, &parts.mass),
+            &factor,
+        ))
     }
 
     /// The displacements at rest under the train at its first place, on a smooth track.

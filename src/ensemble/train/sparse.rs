@@ -170,9 +170,9 @@ impl Pattern {
             let inverse = work.inverse[row];
             self.factorise_row(lower, row, from, work, scaled)
                 .expect("a principal block of a positive definite matrix");
-            let close = |a: f64, b: f64| (a - b).abs() <= 1e-15 * b.abs().max(1e-3);
+            let close = |a: f64, b: f64| (a - b).abs() <= 1e-13 * b.abs().max(1e-3);
             let pairs = before.iter().zip(&work.lower[range]);
-            let unchanged = (work.inverse[row] / inverse - 1.0).abs() <= 1e-15;
+            let unchanged = (work.inverse[row] / inverse - 1.0).abs() <= 1e-13;
             same = match unchanged && pairs.into_iter().all(|(a, b)| close(*b, *a)) {
                 true => same + 1,
                 false => 0,

@@ -94,13 +94,6 @@ impl State {
         }
     }
 
-    /// Stops these rows where they are.
-    pub fn rest(&mut self, rows: std::ops::Range<usize>) {
-        let values = rows.start * TRAIN_LANES..rows.end * TRAIN_LANES;
-        self.now.values_mut()[values.clone()].fill(0.0);
-        self.next.values_mut()[values].fill(0.0);
-    }
-
     /// The first lane that left all bounds: a coordinate beyond `bound` or not a number.
     pub fn unbounded(&self, bound: f64) -> Option<usize> {
         let values = self.displacement.values();

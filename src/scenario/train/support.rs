@@ -31,7 +31,7 @@ pub struct LineSpec {
     #[serde(default = "one")]
     #[schemars(range(min = 1, max = 64))]
     pub elements_per_bay: u32,
-    /// The track is solved for so far from the train and from the bridge (m), 12 m by default, where all points share its
+    /// The track is solved for so far from the train and from the bridge (m), 8 m by default, where all points share its
     /// parameters; beyond, it rests. A window longer than the track solves for all of it.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub window: Option<f64>,

@@ -16,7 +16,7 @@ use crate::system::train::{Support, Track};
 const MARGIN: f64 = 20.0;
 
 /// The window where it is not given (m).
-const WINDOW: f64 = 12.0;
+const WINDOW: f64 = 8.0;
 
 /// Fasteners, at most.
 const MOST_FASTENERS: f64 = 1e6;
