@@ -18,7 +18,7 @@
 //!
 //! SI units everywhere. Upward is positive: displacement y (m), irregularity η (m). Bending moments are
 //! positive in sagging, contact forces in compression. Vehicle coordinates are measured from the
-//! static equilibrium on a level road. Positions x (m) start at the bridge's first end; ξ = v t − approach is the wheel's.
+//! static equilibrium on a level road. Positions x (m) start at the bridge's first end; ξ = v t − approach is the wheel's, of a train the first one's.
 //! Power spectral densities are two-sided: over the wavenumber Ω (rad/m), in m³/rad, and over the angular
 //! frequency ω (rad/s) of a base acceleration, in m²/s³.
 //!
