@@ -36,6 +36,7 @@ fn trailer() -> RailVehicle {
         bogie_spacing: 17.375,
         wheelbase: 2.5,
         wheel_radius: 0.46,
+        wheel_defects: Vec::new(),
     }
 }
 

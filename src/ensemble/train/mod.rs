@@ -40,6 +40,8 @@ pub struct Trains {
     /// The rows that move at each step.
     windows: Windows,
     lifted: Vec<Vec<Vec<f64>>>,
+    /// The wheels' own irregularities count.
+    uneven: bool,
     /// Of every wheel in the middle of every step; of every wheel at the start.
     path: WheelPath,
     start: WheelPath,
@@ -151,6 +153,7 @@ impl Trains {
             shape,
             numbers,
             meetings: Vec::new(),
+            uneven: true,
             path,
             start: at,
             times,

@@ -9,6 +9,7 @@ use super::state::State;
 use super::window::Window;
 use crate::ensemble::path::cubic;
 use crate::ensemble::{Divergence, Points, Stepper, Strip, System};
+use crate::system::train::TrainWheel;
 use pulp::{Arch, Simd, WithSimd};
 use std::ops::Range;
 
@@ -25,6 +26,8 @@ pub(super) struct TrainStepper<'a> {
     irregularity: Vec<f64>,
     /// Numbers `[number][lane]`, where they differ.
     rows: Vec<f64>,
+    /// The wheels that are not round, of all points or of each lane: their place among the wheels.
+    uneven: Vec<Vec<(usize, TrainWheel)>>,
     /// The outputs of every step, where they are taken at other times than a lane's own.
     every: Vec<f64>,
     arch: Arch,
@@ -44,6 +47,7 @@ impl<'a> TrainStepper<'a> {
             meetings: vec![Meeting::default(); CHUNK],
             irregularity: vec![0.0; CHUNK * wheels * TRAIN_LANES],
             rows: Vec::new(),
+            uneven: vec![uneven(&trains.shape.wheels)],
             every: Vec::new(),
             arch: Arch::new(),
             trains,
@@ -91,7 +95,7 @@ impl TrainStepper<'_> {
         let trains = self.trains;
         let shape = &trains.shape;
         if let Some(varied) = &trains.varied {
-            varied.fill(points, shape, &trains.numbers, &mut self.rows);
+            self.uneven = varied.fill(points, shape, &trains.numbers, &mut self.rows);
         }
         let wheels = shape.wheels.len();
         let mut heights = vec![0.0; wheels * TRAIN_LANES];
@@ -99,6 +103,7 @@ impl TrainStepper<'_> {
         trains
             .start
             .fill(rows, samples, 0..wheels, TRAIN_LANES, &mut heights);
+        self.add_wheels(0.0, &mut heights);
         let numbers = &self.rows;
         let number = |index: usize, lane: usize| match numbers.is_empty() {
             true => trains.numbers[index],
@@ -111,6 +116,13 @@ impl TrainStepper<'_> {
             let of_wheels = first * wheels..steps.end * wheels;
             let eta = &mut self.irregularity[..of_wheels.len() * TRAIN_LANES];
             trains.path.fill(rows, samples, of_wheels, TRAIN_LANES, eta);
+            let mut eta = std::mem::take(&mut self.irregularity);
+            let rows = eta.chunks_exact_mut(wheels * TRAIN_LANES);
+            for (step, eta) in steps.clone().zip(rows) {
+                let rolled = shape.crossing.middle(step) + shape.crossing.approach;
+                self.add_wheels(rolled, eta);
+            }
+            self.irregularity = eta;
             self.step(steps.clone(), points.range.len(), strip);
             if let Some(lane) = self.state.unbounded(BOUND) {
                 return Err(Divergence {
@@ -120,6 +132,26 @@ impl TrainStepper<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Adds the wheels' own irregularities `[wheel][lane]` after they have rolled so far (m).
+    fn add_wheels(&self, rolled: f64, eta: &mut [f64]) {
+        if !self.trains.uneven {
+            return;
+        }
+        for (lane, wheels) in self.uneven.iter().enumerate() {
+            for (index, wheel) in wheels {
+                let height = wheel.height(rolled);
+                let lanes = if self.uneven.len() == 1 {
+                    0..TRAIN_LANES
+                } else {
+                    lane..lane + 1
+                };
+                for value in &mut eta[index * TRAIN_LANES..][lanes] {
+                    *value += height;
+                }
+            }
+        }
     }
 
     fn step(&mut self, steps: Range<usize>, width: usize, strip: &mut Strip<'_>) {
@@ -177,8 +209,15 @@ impl TrainStepper<'_> {
 
 impl super::Varied {
     /// The points' numbers as rows of lanes, the last point's also in lanes that are left over. Values that no
-    /// structure has leave the lane not a number, which ends the run.
-    fn fill(&self, points: &Points<'_>, shape: &Shape, nominal: &[f64], rows: &mut Vec<f64>) {
+    /// structure has leave the lane not a number, which ends the run. The lanes' wheels that are not round.
+    fn fill(
+        &self,
+        points: &Points<'_>,
+        shape: &Shape,
+        nominal: &[f64],
+        rows: &mut Vec<f64>,
+    ) -> Vec<Vec<(usize, TrainWheel)>> {
+        let mut wheels = Vec::new();
         rows.resize(shape.layout.size * TRAIN_LANES, 0.0);
         let columns: Vec<&[f64]> = self
             .parameters
@@ -193,6 +232,7 @@ impl super::Varied {
                     *value = column[lane];
                 }
                 let crossing = (self.crossing_of)(&values);
+                wheels.push(uneven(&crossing.assembly().wheels()));
                 list = shape
                     .numbers(&crossing)
                     .unwrap_or_else(|| vec![f64::NAN; nominal.len()]);
@@ -201,7 +241,15 @@ impl super::Varied {
                 row[lane] = *value;
             }
         }
+        wheels
     }
+}
+
+/// The wheels that are not round.
+fn uneven(wheels: &[TrainWheel]) -> Vec<(usize, TrainWheel)> {
+    let all = wheels.iter().cloned().enumerate();
+    all.filter(|(_, wheel)| !wheel.wheel.irregularity.defects.is_empty())
+        .collect()
 }
 
 /// A meeting in rows of lanes.

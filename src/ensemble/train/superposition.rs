@@ -81,6 +81,7 @@ impl Trains {
         self.stepper()
             .run(&alone, &mut Strip::cut(&mut smooth, 1, 1)[0])?;
         let weighted = self.numbers.clone();
+        self.uneven = false;
         for wheel in 0..self.shape.wheels.len() {
             let first = self.shape.layout.wheels + OF_WHEEL * wheel;
             self.numbers[first..first + SOFTNESS].fill(0.0);

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
 use super::presets::{CarPreset, WHEEL_RADIUS};
-use super::{Misfit, statics};
+use super::{Misfit, WheelDefectSpec, statics};
 use crate::system::train::{Axle, Car, HalfCar, RailVehicle};
 
 /// A car of a train; without a `kind` a `rail-vehicle`.
@@ -90,6 +90,9 @@ pub struct RailVehicleSpec {
     /// Radius of the wheels; by default 0.46 m, that of new wheels of the Velaro and CRH3 trains (m).
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub wheel_radius: Option<f64>,
+    /// What is not round at the wheelsets.
+    #[serde(default)]
+    pub wheel_defect: Vec<WheelDefectSpec>,
 }
 
 /// A body on two axles.
@@ -280,6 +283,11 @@ impl RailVehicleSpec {
             let value = own.or(preset.map(of));
             value.ok_or_else(|| Misfit::missing(key).remedy("give it, or a preset"))
         };
+        let wheel_radius = self.wheel_radius.unwrap_or(WHEEL_RADIUS);
+        let defects = self.wheel_defect.iter().enumerate().map(|(index, defect)| {
+            let below = |misfit: Misfit| misfit.below(&format!("wheel_defect.{index}"));
+            defect.build(wheel_radius).map_err(below)
+        });
         let car = RailVehicle {
             body_mass: value("body_mass", self.body_mass, |c| c.body_mass)?,
             body_pitch_inertia: value("body_pitch_inertia", self.body_pitch_inertia, |c| {
@@ -304,7 +312,8 @@ impl RailVehicleSpec {
             })?,
             bogie_spacing: value("bogie_spacing", self.bogie_spacing, |c| c.bogie_spacing)?,
             wheelbase: value("wheelbase", self.wheelbase, |c| c.wheelbase)?,
-            wheel_radius: self.wheel_radius.unwrap_or(WHEEL_RADIUS),
+            wheel_radius,
+            wheel_defects: defects.collect::<Result<_, _>>()?,
         };
         if car.wheelbase >= car.bogie_spacing {
             let expected = format!("less than the bogie_spacing of {:?} (m)", car.bogie_spacing);

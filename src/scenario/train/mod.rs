@@ -13,6 +13,7 @@ mod statics;
 mod support;
 mod track;
 mod varied;
+mod wheel;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -30,6 +31,8 @@ pub use support::{
     SubgradeSpec,
 };
 pub use track::{BallastedSpec, DirectSpec, SlabTrackSpec, TrackSpec};
+
+pub use wheel::{FlatSpec, OutOfRoundnessSpec, WheelDefectSpec};
 
 pub(super) use misfit::Misfit;
 pub(super) use row::placed;

@@ -100,6 +100,7 @@ impl CarPreset {
                 wheelbase,
                 // Not in the sources.
                 wheel_radius: WHEEL_RADIUS,
+                wheel_defects: Vec::new(),
             },
             length,
         }

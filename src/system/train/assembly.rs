@@ -87,6 +87,16 @@ pub struct TrainWheel {
     pub wheel: Wheel,
 }
 
+impl TrainWheel {
+    /// What the wheel itself adds to the irregularity under it after it has rolled x (m): m, upward positive.
+    pub fn height(&self, rolled: f64) -> f64 {
+        match self.wheel.radius {
+            Some(radius) => self.wheel.irregularity.height(rolled, radius),
+            None => 0.0,
+        }
+    }
+}
+
 impl TrainCrossing {
     /// Collects the matrices.
     pub fn assembly(&self) -> Assembly {

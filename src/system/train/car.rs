@@ -1,6 +1,7 @@
 //! Cars, from a moving force to the railway vehicle with ten degrees of freedom.
 
 use super::{Body, Multibody, Spring, Wheel};
+use crate::irregularity::{WheelDefect, WheelIrregularity};
 use crate::quantity::CarPart;
 
 /// A car; distances along it are measured from its first wheel backwards.
@@ -71,6 +72,8 @@ pub struct RailVehicle {
     pub wheelbase: f64,
     /// R (m).
     pub wheel_radius: f64,
+    /// What is not round at which wheelset, from 0.
+    pub wheel_defects: Vec<(usize, WheelDefect)>,
 }
 
 impl Car {
@@ -200,8 +203,12 @@ impl RailVehicle {
                 });
                 bodies.push(body(CarPart::Wheel(axle + 1), &[(axle, 1.0)]));
                 let behind = k as f64 * self.bogie_spacing + j as f64 * self.wheelbase;
+                let own = self.wheel_defects.iter().filter(|(at, _)| *at == axle);
                 wheels.push(Wheel {
                     radius: Some(self.wheel_radius),
+                    irregularity: WheelIrregularity {
+                        defects: own.map(|(_, defect)| *defect).collect(),
+                    },
                     ..wheel(behind, Some(axle), self.axle_load(gravity))
                 });
             }
@@ -227,6 +234,7 @@ fn wheel(behind: f64, coordinate: Option<usize>, weight: f64) -> Wheel {
         weight,
         tyre_stiffness: None,
         radius: None,
+        irregularity: WheelIrregularity::default(),
     }
 }
 

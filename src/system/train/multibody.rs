@@ -34,6 +34,8 @@ pub struct Wheel {
     pub tyre_stiffness: Option<f64>,
     /// R (m), where it is known.
     pub radius: Option<f64>,
+    /// What is not round at it.
+    pub irregularity: crate::irregularity::WheelIrregularity,
 }
 
 /// A place whose motion is Σ aₖ uₖ.
@@ -126,6 +128,7 @@ mod tests {
             bogie_spacing: 17.375,
             wheelbase: 2.5,
             wheel_radius: 0.46,
+            wheel_defects: Vec::new(),
         }
     }
 
