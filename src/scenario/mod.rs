@@ -86,7 +86,9 @@ pub use random::{
 };
 pub use reliability::{LimitKind, LimitSpec, ReliabilitySpec};
 pub use schema::{ScenarioSpec, is_key, json_schema};
-pub use simulation::{Compression, InitialState, IntegratorKind, Precision, SimulationSpec};
+pub use simulation::{
+    Compression, InitialState, IntegratorKind, Precision, SimulationSpec, SolutionKind,
+};
 pub use spectrum::{
     ChineseBallastlessSpec, ChineseMainLineSpec, DisturbanceKind, FilterForm, FraFrybaSpec,
     FraSpec, GermanSpec, Iso8608Spec, MainLineKind, RoadClassKind, RoadLevelKind,

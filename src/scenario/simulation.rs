@@ -38,9 +38,8 @@ pub struct SimulationSpec {
     #[serde(default = "default_gravity")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub gravity: f64,
-    /// Of trains: whether the points are superposed from the responses to unit heights, which linear or rigid contact and
-    /// a random irregularity alone allow; by default where that takes less work than stepping each point.
-    pub superposition: Option<bool>,
+    /// How the points of a train are found; by default in the way that takes less work.
+    pub solution: Option<SolutionKind>,
     /// Precision of the recorded values.
     #[serde(default)]
     pub precision: Precision,
@@ -63,6 +62,16 @@ pub enum IntegratorKind {
     Exponential,
     /// The classical Runge-Kutta scheme of order four: of oscillators, and of nothing else.
     RungeKutta,
+}
+
+/// How the responses of a train's points are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SolutionKind {
+    /// Each point step by step.
+    Stepping,
+    /// From the responses to unit heights: with linear or rigid contact, and a random irregularity alone.
+    Superposition,
 }
 
 /// The state at the start of the run, at rest; the bridge undeflected by the vehicle.

@@ -4,7 +4,7 @@ use super::{VERTICAL, random_parameters};
 use crate::ensemble::{Refusal, System, TrainCrossingOf, Trains};
 use crate::files::points::PointsReader;
 use crate::quantity::Quantity;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, SolutionKind};
 use crate::system::train::TrainCrossing;
 use crate::{BadInput, Error, Result};
 use std::path::Path;
@@ -26,15 +26,13 @@ pub(super) fn trains(
         header.position_step,
         header.positions,
     );
-    let asked = scenario.simulation()?.superposition;
+    let asked = scenario.simulation()?.solution;
     let refused = |refusal| refused(scenario, points, reader, refusal);
     if let Some(varied) = varied_train(scenario, crossing, points, reader)? {
-        if asked == Some(true) {
+        if asked == Some(SolutionKind::Superposition) {
             let found = format!("{} random parameters", varied.columns.len());
             let expected = "points that differ in their irregularity alone";
-            return Err(scenario
-                .bad("simulation.superposition", expected, found)
-                .into());
+            return Err(scenario.bad("simulation.solution", expected, found).into());
         }
         let trains = Trains::varied(
             varied.nominal,
@@ -47,17 +45,22 @@ pub(super) fn trains(
         return Ok(Box::new(trains.map_err(refused)?));
     }
     let trains = Trains::new(crossing.clone(), quantities, grid).map_err(refused)?;
-    if asked == Some(true) && !trains.can_superpose() {
+    if asked == Some(SolutionKind::Superposition) && !trains.can_superpose() {
         let expected = "linear or rigid contact of all wheels";
         return Err(scenario
             .bad(
-                "simulation.superposition",
+                "simulation.solution",
                 expected,
                 "a wheel with Hertz's contact",
             )
             .into());
     }
-    if !asked.unwrap_or_else(|| trains.gains_by_superposition(header.count as usize)) {
+    let superposed = match asked {
+        Some(SolutionKind::Superposition) => true,
+        Some(SolutionKind::Stepping) => false,
+        None => trains.gains_by_superposition(header.count as usize),
+    };
+    if !superposed {
         return Ok(Box::new(trains));
     }
     let superposition = trains.superpose().map_err(|divergence| {
