@@ -52,7 +52,7 @@ impl Bins {
     }
 
     /// The number of nodes.
-    pub fn len(&self) -> usize {
+    pub fn size(&self) -> usize {
         self.masses.len()
     }
 
@@ -62,19 +62,19 @@ impl Bins {
         let place = |bins: &Bins, value: f64| (value - bins.origin) / bins.spacing;
         loop {
             let before = (1.0 - place(self, least)).max(0.0).ceil();
-            let after = (place(self, largest) + 2.0 - self.len() as f64)
+            let after = (place(self, largest) + 2.0 - self.size() as f64)
                 .max(0.0)
                 .ceil();
             if before + after == 0.0 {
                 return;
             }
-            if self.len() as f64 + before + after > most as f64 && self.len() > 4 {
+            if self.size() as f64 + before + after > most as f64 && self.size() > 4 {
                 self.coarsen();
                 continue;
             }
             // A part more, so that it is seldom done.
-            let spare = (most.saturating_sub(self.len()) as f64 - before - after).max(0.0);
-            let more = (self.len() / 4).min((spare / 2.0) as usize);
+            let spare = (most.saturating_sub(self.size()) as f64 - before - after).max(0.0);
+            let more = (self.size() / 4).min((spare / 2.0) as usize);
             let before = if before > 0.0 {
                 before as usize + more
             } else {
@@ -85,8 +85,8 @@ impl Bins {
             } else {
                 0
             };
-            let mut masses = vec![0.0; before + self.len() + after];
-            masses[before..before + self.len()].copy_from_slice(&self.masses);
+            let mut masses = vec![0.0; before + self.size() + after];
+            masses[before..before + self.size()].copy_from_slice(&self.masses);
             self.origin -= before as f64 * self.spacing;
             self.masses = masses;
             return;
@@ -195,11 +195,11 @@ mod tests {
             grown.reach(least, largest, 300);
             grown.add(part, &probability[..part.len()]);
         }
-        assert!(grown.len() <= 300 && grown.spacing() > 0.03);
+        assert!(grown.size() <= 300 && grown.spacing() > 0.03);
         let mut at_once = Bins {
             origin: grown.origin,
             spacing: grown.spacing,
-            masses: vec![0.0; grown.len()],
+            masses: vec![0.0; grown.size()],
         };
         at_once.add(&values, &probability);
         for (one, other) in grown.masses.iter().zip(&at_once.masses) {

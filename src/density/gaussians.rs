@@ -164,7 +164,7 @@ impl Fit for Gaussians<'_> {
                 let ends = [ends[0] - beyond, ends[1] + beyond];
                 sum(
                     bins.nodes(),
-                    bins.len(),
+                    bins.size(),
                     ends,
                     bins.kernel_width(width),
                     nodes,

@@ -502,7 +502,7 @@ fn lanes_with_parameters_of_their_own() {
             .stepper()
             .run(&point, &mut Strip::cut(&mut own, 1, 1)[0])
             .unwrap();
-        for k in 0..3 {
+        for (k, name) in names.iter().enumerate() {
             let found: Vec<f64> = together
                 .iter()
                 .skip(3 * k + lane)
@@ -526,7 +526,7 @@ fn lanes_with_parameters_of_their_own() {
             assert!(
                 off < if lane == 0 { 1e-9 } else { 1e-2 },
                 "{} {lane} {off}",
-                names[k]
+                name
             );
         }
     }

@@ -111,11 +111,11 @@ impl Windows {
         for step in 0..=shape.crossing.steps {
             let first = shape.crossing.middle(step);
             let train = rows(first - last - margin, first + margin);
-            let mut ranges = vec![train.clone()];
+            let mut ranges = Vec::from([train.clone()]);
             if let Some(bridge) = &bridge {
                 reached |= train.end >= bridge.start;
                 if reached && train.start <= bridge.end {
-                    ranges = vec![train.start.min(bridge.start)..train.end.max(bridge.end)];
+                    ranges[0] = train.start.min(bridge.start)..train.end.max(bridge.end);
                 } else if reached {
                     ranges = vec![bridge.clone(), train];
                 }

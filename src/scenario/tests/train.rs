@@ -166,7 +166,7 @@ fn a_train_is_built_as_it_is_given() {
     let end = track.start + (track.fasteners - 1) as f64 * track.spacing;
     // ... but at least 5 m beyond the bridge.
     assert!(
-        end >= 104.0 + 5.0 && end < 104.0 + 5.6 && last < end,
+        (104.0 + 5.0..104.0 + 5.6).contains(&end) && last < end,
         "{end}"
     );
     let whole = track.start / track.spacing;
