@@ -39,7 +39,7 @@ pub(super) fn trains(
             quantities,
             grid,
             varied.fastest,
-            varied.columns,
+            (varied.columns, varied.structure),
             varied.crossing_of,
         );
         return Ok(Box::new(trains.map_err(refused)?));
@@ -108,6 +108,8 @@ fn refused(
 
 /// A train whose parameters differ between points.
 struct VariedTrain {
+    /// Track, bridge or speed differ, not the cars and their contact alone.
+    structure: bool,
     /// The largest speed (m/s), where it differs.
     fastest: Option<f64>,
     /// With the track that the fastest of all trains needs.
@@ -152,7 +154,11 @@ fn varied_train(
         }
     }
     let (nominal, crossing_of) = scenario.varied_train(crossing, &keys, fastest)?;
+    let of_structure = |key: &String| {
+        key.starts_with("track.") || key.starts_with("bridge.") || key == "vehicle.speed"
+    };
     Ok(Some(VariedTrain {
+        structure: keys.iter().any(of_structure),
         fastest,
         nominal,
         columns,

@@ -28,10 +28,14 @@ use pulp::{Simd, WithSimd};
 use std::ops::Range;
 
 /// Steps of one batch.
-pub(super) struct Kernel<'a, 'b, N> {
+pub(super) struct Kernel<'a, 'b, N, M> {
     pub shape: &'a Shape,
     pub windows: &'a Windows,
+    /// All numbers, and those of track and deck.
     pub numbers: N,
+    pub structure: M,
+    /// The cars' half of all meetings, in rows of lanes, where only the cars differ between points.
+    pub cars: Option<&'a Meeting>,
     /// The meetings of these steps, the first of them of step `steps.start`.
     pub meetings: &'a [Meeting],
     /// Numbers of the meetings are rows of lanes.
@@ -44,7 +48,7 @@ pub(super) struct Kernel<'a, 'b, N> {
     pub width: usize,
 }
 
-impl<N: Numbers> WithSimd for Kernel<'_, '_, N> {
+impl<N: Numbers, M: Numbers> WithSimd for Kernel<'_, '_, N, M> {
     type Output = ();
 
     #[inline(always)]
@@ -58,7 +62,7 @@ impl<N: Numbers> WithSimd for Kernel<'_, '_, N> {
     }
 }
 
-impl<N: Numbers> Kernel<'_, '_, N> {
+impl<N: Numbers, M: Numbers> Kernel<'_, '_, N, M> {
     #[inline(always)]
     fn run<S: Simd, const W: usize>(mut self, simd: S) {
         let shape = self.shape;
@@ -90,8 +94,8 @@ impl<N: Numbers> Kernel<'_, '_, N> {
     fn change<S: Simd, const W: usize>(&mut self, simd: S, n: usize) {
         let (shape, windows) = (self.shape, self.windows);
         let (k, c) = (&shape.pattern.stiffness, &shape.pattern.damping);
-        let stiffness = self.numbers.from(shape.layout.stiffness);
-        let damping = self.numbers.from(shape.layout.damping);
+        let stiffness = self.structure.from(shape.layout.stiffness);
+        let damping = self.structure.from(shape.layout.damping);
         let mass = Shared(&windows.mass);
         let zero = [simd.splat_f64s(0.0); W];
         let two = simd.splat_f64s(2.0);
@@ -173,25 +177,16 @@ impl<N: Numbers> Kernel<'_, '_, N> {
     fn forward<S: Simd, const W: usize>(&mut self, simd: S, n: usize) {
         let (shape, windows) = (self.shape, self.windows);
         let window = windows.at(n);
-        let lower = self.numbers.from(shape.layout.forward);
         let left = windows.left(n);
         let state = &mut *self.state;
         for row in &left {
             state.next.values_mut()[row * TRAIN_LANES..(row + 1) * TRAIN_LANES].fill(0.0);
         }
-        let mut sweep = Sweep::<S, W, N> {
-            simd,
-            shape,
-            stiffness: self.numbers.from(shape.layout.stiffness),
-            damping: self.numbers.from(shape.layout.damping),
-            step: self.numbers.row(simd, shape.layout.constants + STEP),
-            w: rows::<S, W>(state.now.values()),
-            y: rows_mut::<S, W>(state.next.values_mut()),
-            u: rows_mut::<S, W>(state.displacement.values_mut()),
-            s: rows_mut::<S, W>(state.spring.values_mut()),
-            r: rows_mut::<S, W>(state.load.values_mut()),
-        };
+        let mut sweep = Sweep::<S, W, N>::new(simd, shape, self.numbers, state);
+        let lower = self.numbers.from(shape.layout.forward);
         sweep.rows(0..shape.track.start, lower, 0);
+        let lower = self.structure.from(shape.layout.forward);
+        let mut sweep = Sweep::<S, W, M>::new(simd, shape, self.structure, state);
         for part in &window.track {
             let mut rest = part.rows.clone();
             if let Some(edge) = windows.edge_of(part) {
@@ -219,7 +214,8 @@ impl<N: Numbers> Kernel<'_, '_, N> {
         let shape = self.shape;
         let wheels = shape.wheels.len();
         let half_step: Row<S, W> = self.numbers.row(simd, shape.layout.constants + HALF_STEP);
-        let inverse = self.numbers.from(shape.layout.inverse);
+        let inverse = self.structure.from(shape.layout.inverse);
+        let inverse_of_cars = self.numbers.from(shape.layout.inverse);
         for index in 0..wheels {
             let own = shape.layout.wheels + OF_WHEEL * index;
             let mut reached = [simd.splat_f64s(0.0); W];
@@ -233,6 +229,15 @@ impl<N: Numbers> Kernel<'_, '_, N> {
                         simd.mul_add_f64s(gd, y[j], reached[j])
                     });
                 }
+            }
+            for (k, row) in self.own_rows(index).enumerate() {
+                let d: Row<S, W> = inverse_of_cars.row(simd, row);
+                let g = self.own_column::<S, W>(simd, index, k);
+                let y: Row<S, W> = load(simd, &self.state.next.values()[row * TRAIN_LANES..]);
+                reached = each!(simd, j => {
+                    let gd = simd.mul_f64s(g[j], d[j]);
+                    simd.mul_add_f64s(gd, y[j], reached[j])
+                });
             }
             let compression: Row<S, W> = self.numbers.row(simd, own + COMPRESSION);
             let eta: Row<S, W> = load(simd, &eta[index * TRAIN_LANES..]);
@@ -256,7 +261,7 @@ impl<N: Numbers> Kernel<'_, '_, N> {
                 &gap,
             );
         }
-        if shape.laws.contains(&Law::Hertz) {
+        if shape.laws.contains(&Law::Hertz) || self.cars.is_some() {
             self.relax::<S, W>(simd, meeting);
         } else {
             self.substitute::<S, W>(simd, meeting);
@@ -264,6 +269,13 @@ impl<N: Numbers> Kernel<'_, '_, N> {
         for index in 0..wheels {
             let force: Row<S, W> =
                 load(simd, &self.state.force_next.values()[index * TRAIN_LANES..]);
+            for (k, row) in self.own_rows(index).enumerate() {
+                let g = self.own_column::<S, W>(simd, index, k);
+                let values = &mut self.state.next.values_mut()[row * TRAIN_LANES..];
+                let y: Row<S, W> = load(simd, values);
+                let y = each!(simd, j => neg_mul_add(simd, g[j], force[j], y[j]));
+                store(simd, values, &y);
+            }
             for (range, first) in meeting.reaches[index].parts() {
                 for (k, row) in range.enumerate() {
                     let g = self.meeting_row::<S, W>(simd, &meeting.columns, first + k);
@@ -287,6 +299,43 @@ impl<N: Numbers> Kernel<'_, '_, N> {
             load(simd, &values[index * TRAIN_LANES..])
         } else {
             [simd.splat_f64s(values[index]); W]
+        }
+    }
+
+    /// The rows of its car that a wheel's column reaches, where the cars' half is apart.
+    #[inline(always)]
+    fn own_rows(&self, wheel: usize) -> Range<usize> {
+        self.cars
+            .map_or(0..0, |cars| cars.reaches[wheel].car.clone())
+    }
+
+    /// Its value in the k-th of them.
+    #[inline(always)]
+    fn own_column<S: Simd, const W: usize>(&self, simd: S, wheel: usize, k: usize) -> Row<S, W> {
+        let cars = self.cars.expect("the cars' half");
+        load(
+            simd,
+            &cars.columns[(cars.reaches[wheel].first + k) * TRAIN_LANES..],
+        )
+    }
+
+    /// How wheel i yields to wheel j's force.
+    #[inline(always)]
+    fn yielding<S: Simd, const W: usize>(
+        &self,
+        simd: S,
+        meeting: &Meeting,
+        i: usize,
+        j: usize,
+    ) -> Row<S, W> {
+        let at = i * self.shape.wheels.len() + j;
+        let rail = self.meeting_row::<S, W>(simd, &meeting.yielding, at);
+        match self.cars {
+            Some(cars) => {
+                let own: Row<S, W> = load(simd, &cars.yielding[at * TRAIN_LANES..]);
+                each!(simd, v => simd.add_f64s(rail[v], own[v]))
+            }
+            None => rail,
         }
     }
 
@@ -361,12 +410,12 @@ impl<N: Numbers> Kernel<'_, '_, N> {
                 let own = shape.layout.wheels + OF_WHEEL * i;
                 let mut gap: Row<S, W> = load(simd, &self.state.gap.values()[i * TRAIN_LANES..]);
                 for j in (0..wheels).filter(|j| *j != i) {
-                    let c = self.meeting_row::<S, W>(simd, &meeting.yielding, i * wheels + j);
+                    let c = self.yielding::<S, W>(simd, meeting, i, j);
                     let f: Row<S, W> =
                         load(simd, &self.state.force_next.values()[j * TRAIN_LANES..]);
                     gap = each!(simd, v => neg_mul_add(simd, c[v], f[v], gap[v]));
                 }
-                let yielding = self.meeting_row::<S, W>(simd, &meeting.yielding, i * wheels + i);
+                let yielding = self.yielding::<S, W>(simd, meeting, i, i);
                 let softness: Row<S, W> = self.numbers.row(simd, own + SOFTNESS);
                 let force = match shape.laws[i] {
                     Law::Force => self.numbers.row(simd, own + WEIGHT),
@@ -399,11 +448,11 @@ impl<N: Numbers> Kernel<'_, '_, N> {
         let (shape, windows) = (self.shape, self.windows);
         let window = windows.at(n);
         let columns = &shape.pattern.factor_columns;
-        let inverse = self.numbers.from(shape.layout.inverse);
-        let upper = self.numbers.from(shape.layout.backward);
+        let inverse = self.structure.from(shape.layout.inverse);
+        let upper = self.structure.from(shape.layout.backward);
         let y: &mut [Row<S, W>] = rows_mut::<S, W>(self.state.next.values_mut());
         if window.modes {
-            back::<S, W, N>(
+            back::<S, W, M>(
                 simd,
                 columns,
                 shape.modes.clone(),
@@ -415,7 +464,7 @@ impl<N: Numbers> Kernel<'_, '_, N> {
         for part in window.track.iter().rev() {
             let edge = windows.edge_of(part);
             let own = edge.map_or(part.rows.start, |edge| edge.rows.end.min(part.rows.end));
-            back::<S, W, N>(
+            back::<S, W, M>(
                 simd,
                 columns,
                 own..part.rows.end,
@@ -438,6 +487,8 @@ impl<N: Numbers> Kernel<'_, '_, N> {
             }
         }
         let cars = 0..shape.track.start;
+        let inverse = self.numbers.from(shape.layout.inverse);
+        let upper = self.numbers.from(shape.layout.backward);
         back::<S, W, N>(simd, columns, cars, (inverse, 0), (upper, 0), y);
     }
 
@@ -542,7 +593,23 @@ struct Sweep<'a, S: Simd, const W: usize, N> {
     r: &'a mut [Row<S, W>],
 }
 
-impl<S: Simd, const W: usize, N: Numbers> Sweep<'_, S, W, N> {
+impl<'a, S: Simd, const W: usize, N: Numbers> Sweep<'a, S, W, N> {
+    #[inline(always)]
+    fn new(simd: S, shape: &'a Shape, numbers: N, state: &'a mut State) -> Self {
+        Sweep {
+            simd,
+            shape,
+            stiffness: numbers.from(shape.layout.stiffness),
+            damping: numbers.from(shape.layout.damping),
+            step: numbers.row(simd, shape.layout.constants + STEP),
+            w: rows::<S, W>(state.now.values()),
+            y: rows_mut::<S, W>(state.next.values_mut()),
+            u: rows_mut::<S, W>(state.displacement.values_mut()),
+            s: rows_mut::<S, W>(state.spring.values_mut()),
+            r: rows_mut::<S, W>(state.load.values_mut()),
+        }
+    }
+
     /// u, s and r of a row at the end of a step; r.
     #[inline(always)]
     fn end_step(&mut self, row: usize) -> Row<S, W> {
@@ -585,7 +652,7 @@ impl<S: Simd, const W: usize, N: Numbers> Sweep<'_, S, W, N> {
 
     /// These rows, with −L in `lower` from the place `first` on.
     #[inline(always)]
-    fn rows<M: Numbers>(&mut self, rows: Range<usize>, lower: M, first: usize) {
+    fn rows<L: Numbers>(&mut self, rows: Range<usize>, lower: L, first: usize) {
         let factor = &self.shape.pattern.factor;
         for row in rows {
             let load = self.end_step(row);

@@ -7,6 +7,7 @@
 use super::lanes::{Numbers, Row, TRAIN_LANES, each, load, store};
 use super::shape::{HALF_STEP, Law, OF_WHEEL, RAIL_SOFTNESS, SOFTNESS, Shape};
 use super::window::Window;
+use crate::system::train::Place;
 use pulp::Simd;
 use std::ops::Range;
 
@@ -47,6 +48,16 @@ impl Reach {
     }
 }
 
+/// What of a meeting is found: where only the cars differ between points, the two halves are kept apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Half {
+    Both,
+    /// Of track and deck.
+    Structure,
+    /// Of the cars, the same at every step.
+    Cars,
+}
+
 /// Finds meetings, reusing its memory.
 #[derive(Debug)]
 pub struct Finder {
@@ -69,7 +80,7 @@ impl Finder {
         simd: S,
         shape: &Shape,
         numbers: N,
-        window: &Window,
+        (window, half): (&Window, Half),
         step: usize,
         meeting: &mut Meeting,
     ) {
@@ -78,10 +89,10 @@ impl Finder {
         meeting.reaches.clear();
         meeting.columns.clear();
         for wheel in 0..shape.wheels.len() {
-            self.column::<S, W, N>(simd, shape, numbers, window, (step, wheel), meeting);
+            self.column::<S, W, N>(simd, shape, numbers, (window, half), (step, wheel), meeting);
         }
-        self.yielding::<S, W, N>(simd, shape, numbers, step, meeting);
-        if shape.laws.iter().all(|law| *law != Law::Hertz) {
+        self.yielding::<S, W, N>(simd, shape, numbers, (step, half), meeting);
+        if half == Half::Both && shape.laws.iter().all(|law| *law != Law::Hertz) {
             solve::<S, W, N>(simd, shape, numbers, meeting);
         }
     }
@@ -92,19 +103,26 @@ impl Finder {
         simd: S,
         shape: &Shape,
         numbers: N,
-        window: &Window,
+        (window, half): (&Window, Half),
         (step, wheel): (usize, usize),
         meeting: &mut Meeting,
     ) {
         let width = W * S::F64_LANES;
         let lower = numbers.from(shape.layout.forward);
-        let place = &shape.places[step * shape.wheels.len() + wheel];
+        let of_rail = &shape.places[step * shape.wheels.len() + wheel];
+        let nothing = Place::default();
+        let place = if half == Half::Cars {
+            &nothing
+        } else {
+            of_rail
+        };
         let factor = &shape.pattern.factor;
         let mut reach = Reach {
             first: meeting.columns.len() / width,
             ..Reach::default()
         };
-        if let Some(row) = shape.wheels[wheel].row {
+        let own = shape.wheels[wheel].row.filter(|_| half != Half::Structure);
+        if let Some(row) = own {
             reach.car = row..shape.cars[shape.wheels[wheel].car].end;
             store(
                 simd,
@@ -199,7 +217,7 @@ impl Finder {
         simd: S,
         shape: &Shape,
         numbers: N,
-        step: usize,
+        (step, half): (usize, Half),
         meeting: &mut Meeting,
     ) {
         let width = W * S::F64_LANES;
@@ -228,7 +246,7 @@ impl Finder {
                     }
                 }
                 let mut value = each!(simd, j => simd.mul_f64s(half_step[j], sum[j]));
-                if i == j {
+                if i == j && half != Half::Cars {
                     let place = &shape.places[step * wheels + i];
                     let own = simd.splat_f64s(place.flexibility);
                     value = each!(simd, j => simd.add_f64s(

@@ -20,7 +20,7 @@ use super::{Divergence, Stepper, System, WheelPath};
 use crate::quantity::Quantity;
 use crate::system::train::TrainCrossing;
 use lanes::Shared;
-use meeting::{Finder, Meeting};
+use meeting::{Finder, Half, Meeting};
 use shape::{Law, Shape};
 use stepper::TrainStepper;
 use window::Windows;
@@ -57,6 +57,8 @@ struct Varied {
     /// Which of the points' parameters.
     parameters: Vec<usize>,
     crossing_of: TrainCrossingOf,
+    /// Track, bridge or speed differ as well, not the cars and their contact alone.
+    structure: bool,
 }
 
 /// Why a train can't run.
@@ -97,13 +99,14 @@ impl Trains {
     /// # Errors
     /// See [`Refusal`].
     ///
-    /// The whole track is solved for, since factors of windows would differ from point to point.
+    /// Where track, bridge or speed differ (`structure`), every lane has a factor of its own, and the whole track is solved
+    /// for, which takes several times as long; where the cars and their contact alone do, track and bridge stay shared.
     pub fn varied(
         crossing: TrainCrossing,
         quantities: &[Quantity],
         grid: (f64, f64, usize),
         fastest: Option<f64>,
-        parameters: Vec<usize>,
+        (parameters, structure): (Vec<usize>, bool),
         crossing_of: TrainCrossingOf,
     ) -> Result<Trains, Refusal> {
         let times = crossing.times();
@@ -113,14 +116,20 @@ impl Trains {
             longest.steps = (longest.steps as f64 * ratio).ceil() as usize + 2;
             longest.record_every = 1;
         }
-        Ok(Trains {
+        let mut trains = Trains {
             resampled: fastest.is_some(),
             varied: Some(Varied {
                 parameters,
                 crossing_of,
+                structure,
             }),
             ..Trains::on(longest, quantities, grid, times)?
-        })
+        };
+        if !structure {
+            trains.windows = trains.shape.windows().ok_or(Refusal::Indefinite)?;
+            trains.keep_meetings();
+        }
+        Ok(trains)
     }
 
     fn on(
@@ -181,7 +190,12 @@ impl Trains {
     fn find(&self, finder: &mut Finder, step: usize, meeting: &mut Meeting) {
         let numbers = Shared(&self.numbers);
         let window = self.windows.at(step);
-        finder.find::<_, 1, _>(pulp::Scalar, &self.shape, numbers, window, step, meeting);
+        let half = match self.varied {
+            Some(_) => Half::Structure,
+            None => Half::Both,
+        };
+        let part = (window, half);
+        finder.find::<_, 1, _>(pulp::Scalar, &self.shape, numbers, part, step, meeting);
     }
 }
 

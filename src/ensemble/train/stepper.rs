@@ -3,7 +3,7 @@
 use super::Trains;
 use super::kernel::Kernel;
 use super::lanes::{PerLane, Shared, TRAIN_LANES};
-use super::meeting::{Finder, Meeting};
+use super::meeting::{Finder, Half, Meeting};
 use super::shape::Shape;
 use super::state::State;
 use super::window::Window;
@@ -22,6 +22,10 @@ pub(super) struct TrainStepper<'a> {
     trains: &'a Trains,
     state: State,
     finder: Finder,
+    /// Finds what all points share.
+    shared: Finder,
+    /// The cars' half of all meetings, in rows of lanes, where only the cars differ.
+    cars: Meeting,
     meetings: Vec<Meeting>,
     irregularity: Vec<f64>,
     /// Numbers `[number][lane]`, where they differ.
@@ -44,6 +48,8 @@ impl<'a> TrainStepper<'a> {
         TrainStepper {
             state: State::new(&trains.shape),
             finder: Finder::new(&trains.shape, width),
+            shared: Finder::new(&trains.shape, 1),
+            cars: Meeting::default(),
             meetings: vec![Meeting::default(); CHUNK],
             irregularity: vec![0.0; CHUNK * wheels * TRAIN_LANES],
             rows: Vec::new(),
@@ -96,6 +102,16 @@ impl TrainStepper<'_> {
         let shape = &trains.shape;
         if let Some(varied) = &trains.varied {
             self.uneven = varied.fill(points, shape, &trains.numbers, &mut self.rows);
+            if !varied.structure {
+                self.arch.dispatch(Find {
+                    finder: &mut self.finder,
+                    shape,
+                    numbers: PerLane(&self.rows),
+                    part: (trains.windows.at(0), Half::Cars),
+                    step: 0,
+                    meeting: &mut self.cars,
+                });
+            }
         }
         let wheels = shape.wheels.len();
         let mut heights = vec![0.0; wheels * TRAIN_LANES];
@@ -159,24 +175,32 @@ impl TrainStepper<'_> {
         let shape = &trains.shape;
         let wheels = shape.wheels.len();
         let irregularity = &self.irregularity[..steps.len() * wheels * TRAIN_LANES];
-        if trains.varied.is_some() {
+        let windows = &trains.windows;
+        let state = &mut self.state;
+        if trains
+            .varied
+            .as_ref()
+            .is_some_and(|varied| varied.structure)
+        {
             for (step, meeting) in steps.clone().zip(&mut self.meetings) {
                 self.arch.dispatch(Find {
                     finder: &mut self.finder,
                     shape,
                     numbers: PerLane(&self.rows),
-                    window: trains.windows.at(step),
+                    part: (windows.at(step), Half::Both),
                     step,
                     meeting,
                 });
             }
             self.arch.dispatch(Kernel {
                 shape,
-                windows: &trains.windows,
+                windows,
                 numbers: PerLane(&self.rows),
+                structure: PerLane(&self.rows),
+                cars: None,
                 meetings: &self.meetings,
                 varied: true,
-                state: &mut self.state,
+                state,
                 steps,
                 irregularity,
                 strip,
@@ -186,19 +210,39 @@ impl TrainStepper<'_> {
         }
         let meetings = if trains.meetings.is_empty() {
             for (step, meeting) in steps.clone().zip(&mut self.meetings) {
-                trains.find(&mut self.finder, step, meeting);
+                trains.find(&mut self.shared, step, meeting);
             }
             &self.meetings[..]
         } else {
             &trains.meetings[steps.clone()]
         };
+        let structure = Shared(&trains.numbers);
+        if trains.varied.is_some() {
+            self.arch.dispatch(Kernel {
+                shape,
+                windows,
+                numbers: PerLane(&self.rows),
+                structure,
+                cars: Some(&self.cars),
+                meetings,
+                varied: false,
+                state,
+                steps,
+                irregularity,
+                strip,
+                width,
+            });
+            return;
+        }
         self.arch.dispatch(Kernel {
             shape,
-            windows: &trains.windows,
-            numbers: Shared(&trains.numbers),
+            windows,
+            numbers: structure,
+            structure,
+            cars: None,
             meetings,
             varied: false,
-            state: &mut self.state,
+            state,
             steps,
             irregularity,
             strip,
@@ -257,7 +301,7 @@ struct Find<'a> {
     finder: &'a mut Finder,
     shape: &'a Shape,
     numbers: PerLane<'a>,
-    window: &'a Window,
+    part: (&'a Window, Half),
     step: usize,
     meeting: &'a mut Meeting,
 }
@@ -271,18 +315,21 @@ impl WithSimd for Find<'_> {
             finder,
             shape,
             numbers,
-            window,
+            part,
             step,
             meeting,
         } = self;
         match S::F64_LANES {
-            8 => finder
-                .find::<S, { TRAIN_LANES / 8 }, _>(simd, shape, numbers, window, step, meeting),
-            4 => finder
-                .find::<S, { TRAIN_LANES / 4 }, _>(simd, shape, numbers, window, step, meeting),
-            2 => finder
-                .find::<S, { TRAIN_LANES / 2 }, _>(simd, shape, numbers, window, step, meeting),
-            _ => finder.find::<S, TRAIN_LANES, _>(simd, shape, numbers, window, step, meeting),
+            8 => {
+                finder.find::<S, { TRAIN_LANES / 8 }, _>(simd, shape, numbers, part, step, meeting)
+            }
+            4 => {
+                finder.find::<S, { TRAIN_LANES / 4 }, _>(simd, shape, numbers, part, step, meeting)
+            }
+            2 => {
+                finder.find::<S, { TRAIN_LANES / 2 }, _>(simd, shape, numbers, part, step, meeting)
+            }
+            _ => finder.find::<S, TRAIN_LANES, _>(simd, shape, numbers, part, step, meeting),
         }
     }
 }

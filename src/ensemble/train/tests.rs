@@ -472,7 +472,7 @@ fn lanes_with_parameters_of_their_own() {
         &quantities,
         (start, spacing, count),
         Some(230.0 / 3.6),
-        vec![0, 1, 2],
+        (vec![0, 1, 2], true),
         Box::new(move |v| of(v[0], v[1], v[2])),
     )
     .unwrap();
@@ -528,6 +528,73 @@ fn lanes_with_parameters_of_their_own() {
                 "{} {lane} {off}",
                 name
             );
+        }
+    }
+}
+
+/// Cars of their own on a track that all lanes share, against each by itself: with linear contact and with Hertz's.
+#[test]
+fn lanes_with_cars_of_their_own() {
+    let names = [
+        "bridge/midspan/displacement",
+        "vehicle/car-1/body/acceleration",
+        "vehicle/car-1/wheel-1/contact_force",
+    ];
+    let quantities: Vec<Quantity> = names.iter().map(|n| Quantity::named(n).unwrap()).collect();
+    let grid = (-100.0, 0.1, 2000);
+    let row: Vec<f64> = (0..2000).map(|k| 5e-4 * (0.04 * k as f64).sin()).collect();
+    for contact in [HERTZ, Contact::Rigid] {
+        let of = move |mass: f64, stiffness: f64| {
+            let mut case = on_track(contact, 1e-3, 1, 200.0 / 3.6);
+            let Car::RailVehicle(vehicle) = &mut case.cars[0].car else {
+                unreachable!("a rail vehicle")
+            };
+            vehicle.body_mass = mass;
+            vehicle.primary_stiffness = stiffness;
+            case.track.as_mut().unwrap().window = Some(8.0);
+            case
+        };
+        let values = [[44e3, 1.4e6], [36e3, 1.6e6]];
+        let parameters = vec![vec![44e3, 36e3], vec![1.4e6, 1.6e6]];
+        let trains = Trains::varied(
+            of(44e3, 1.4e6),
+            &quantities,
+            grid,
+            None,
+            (vec![0, 1], false),
+            Box::new(move |v| of(v[0], v[1])),
+        )
+        .unwrap();
+        let run = |trains: &Trains, parameters: &[Vec<f64>], points: usize| {
+            let rows = row.repeat(points);
+            let mut values = vec![0.0; trains.times().len() * names.len() * points];
+            let some = Points {
+                excitation: &rows,
+                samples: row.len(),
+                parameters,
+                range: 0..points,
+            };
+            let mut strips = Strip::cut(&mut values, points, points);
+            trains.stepper().run(&some, &mut strips[0]).unwrap();
+            drop(strips);
+            values
+        };
+        let together = run(&trains, &parameters, 2);
+        for (lane, v) in values.iter().enumerate() {
+            let alone = Trains::new(of(v[0], v[1]), &quantities, grid).unwrap();
+            let own = run(&alone, &[], 1);
+            for (k, name) in names.iter().enumerate() {
+                let size = own
+                    .iter()
+                    .skip(k)
+                    .step_by(3)
+                    .map(|y| y.abs())
+                    .fold(0.0, f64::max);
+                let found = together.iter().skip(2 * k + lane).step_by(6);
+                for (a, b) in found.zip(own.iter().skip(k).step_by(3)) {
+                    assert!((a - b).abs() < 1e-8 * size, "{contact:?} {name} {a} {b}");
+                }
+            }
         }
     }
 }
