@@ -60,6 +60,7 @@ fn is_tag(key: &str) -> bool {
     let tags = [
         ".vehicle.kind",
         ".vehicle.car.kind",
+        ".vehicle.car.wheel_defect.kind",
         ".contact.kind",
         ".track.kind",
         ".excitation.spectrum.kind",
@@ -223,6 +224,7 @@ fn every_choice_is_one_that_serde_knows() {
                 ".irregularity.spectrum.set" => read::<MainLineKind>(json),
                 ".simulation.integrator" => read::<IntegratorKind>(json),
                 ".simulation.initial_state" => read::<InitialState>(json),
+                ".simulation.solution" => read::<SolutionKind>(json),
                 ".simulation.precision" => read::<Precision>(json),
                 ".simulation.compression" => read::<Compression>(json),
                 ".simulation.index.kind" => {
@@ -255,5 +257,5 @@ fn every_choice_is_one_that_serde_knows() {
             }
         }
     }
-    assert_eq!(count, 121);
+    assert_eq!(count, 123);
 }

@@ -34,6 +34,20 @@ bogie_spacing = 17.375
 wheelbase = 2.5
 wheel_radius = 0.46
 
+[[vehicle.car.wheel_defect]]
+kind = "flat"
+wheel = 1
+length = 0.05
+depth = 0.5e-3
+phase = 1
+
+[[vehicle.car.wheel_defect]]
+kind = "out-of-roundness"
+wheel = 2
+order = 3
+amplitude = 1e-4
+phase = 0.5
+
 [[vehicle.car]]
 kind = "half-car"
 count = 1
@@ -113,7 +127,8 @@ pub(super) const TRAIN_KINDS: [&[&str]; 3] = [
     ],
     &[
         r#"contact={ kind = "hertz", wheel_profile = "cone" }"#,
-        r#"track={ kind = "ballasted", preset = "zhai-2004-ballasted" }"#,
+        r#"track={ kind = "ballasted", preset = "zhai-2004-ballasted", window = 10 }"#,
+        r#"simulation={ integrator = "newmark", time_step = 1e-3, duration = 1, record = ["vehicle/car-1/body/acceleration"], solution = "stepping" }"#,
     ],
     &[
         r#"vehicle={ kind = "load-model", model = "hslm-a1", speed = 50, approach = 10 }"#,

@@ -31,8 +31,8 @@ pub struct LineSpec {
     #[serde(default = "one")]
     #[schemars(range(min = 1, max = 64))]
     pub elements_per_bay: u32,
-    /// The track is solved for so far from the train and from the bridge (m), 8 m by default, where all points share its
-    /// parameters; beyond, it rests. A window longer than the track solves for all of it.
+    /// Distance from the train and from the bridge up to which the track is solved for, 8 m by default, where all points
+    /// share its parameters; beyond it the track rests (m).
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub window: Option<f64>,
 }
