@@ -257,5 +257,5 @@ fn every_choice_is_one_that_serde_knows() {
             }
         }
     }
-    assert_eq!(count, 123);
+    assert_eq!(count, 151);
 }

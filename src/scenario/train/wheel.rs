@@ -26,7 +26,7 @@ pub struct FlatSpec {
     /// Length of the flat (m).
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length: f64,
-    /// Depth of the flat (m); by default its length squared over 16 wheel radii.
+    /// Depth of the flat; by default its length squared over 16 wheel radii (m).
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub depth: Option<f64>,
     /// Angle that the wheel turns before the flat touches (rad).

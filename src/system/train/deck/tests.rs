@@ -64,6 +64,8 @@ fn elements_agree_with_sines() {
         }
         // Response of moment and displacement to a force, mode by mode: independent of the modes' scale.
         for (x, at) in [(16.25, 10.0), (5.0, 21.3), (30.1, 30.1)] {
+            // Of Timoshenko's beam the elements are coarser.
+            let slack = shear.map_or(1.0, |_| 20.0);
             for what in [Inner::BendingMoment, Inner::ShearForce] {
                 let scale = match what {
                     Inner::BendingMoment => 8.0,
@@ -76,7 +78,7 @@ fn elements_agree_with_sines() {
                 };
                 for mode in 0..4 {
                     let (a, b) = (flexibility(&exact, mode), flexibility(&found, mode));
-                    assert!((a - b).abs() < 2e-3 * scale, "{mode} {a} {b}");
+                    assert!((a - b).abs() < 2e-3 * scale * slack, "{mode} {a} {b}");
                 }
                 if what == Inner::BendingMoment {
                     let (a, b) = (exact.truncated(what, x, at), found.truncated(what, x, at));
