@@ -1,14 +1,17 @@
 //! Trains on track and bridge as a system whose points run in lockstep.
 
+mod forces;
 mod kernel;
 mod lanes;
 mod meeting;
 mod outputs;
+mod record;
 mod shape;
 mod sparse;
 mod state;
 mod stepper;
 mod superposition;
+mod sweep;
 #[cfg(test)]
 mod tests;
 mod window;

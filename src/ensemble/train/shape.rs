@@ -2,7 +2,6 @@
 
 use super::outputs::Outputs;
 use super::sparse::{Factor, Lower, Pattern};
-use super::window::Windows;
 use crate::quantity::Quantity;
 use crate::system::InitialState;
 use crate::system::train::{Assembly, Contact, Place, TrainCrossing, TrainWheel};
@@ -180,23 +179,6 @@ impl Shape {
         self.crossing.time_step * self.crossing.speed / crossing.speed
     }
 
-    /// The rows that move at each step of the shape's own crossing.
-    pub fn windows(&self) -> Option<Windows> {
-        let Some(margin) = self.crossing.track.as_ref().and_then(|track| track.window) else {
-            return Some(Windows::whole(self));
-        };
-        let values = self.crossing.assembly().matrices.values;
-        let parts = self.pattern.collect(&values);
-        let lower = dynamic(&parts, self.crossing.time_step);
-        let factor = self.pattern.factorise(&lower)?;
-        Some(Windows::about_train(
-            self,
-            margin,
-            (&lower, &parts.mass),
-            &factor,
-        ))
-    }
-
     /// The displacements at rest under the train at its first place, on a smooth track.
     fn start(
         &self,
@@ -273,7 +255,7 @@ impl TrainCrossing {
 }
 
 /// A = 2M/h + C + h K/2.
-fn dynamic(lower: &Lower, h: f64) -> Vec<f64> {
+pub(super) fn dynamic(lower: &Lower, h: f64) -> Vec<f64> {
     let parts = lower.mass.iter().zip(&lower.damping).zip(&lower.stiffness);
     parts
         .map(|((m, c), k)| 2.0 / h * m + c + 0.5 * h * k)

@@ -4,7 +4,7 @@
 //! as many before the first, and, from when the train comes to it, for the bridge and the track on it. A principal block of
 //! A has a factor of its own; but it differs from that of the whole in the first rows only, some metres at its left end.
 
-use super::shape::Shape;
+use super::shape::{Shape, dynamic};
 use super::sparse::Factor;
 use std::ops::Range;
 
@@ -44,6 +44,25 @@ pub struct Edge {
     pub inverse: Vec<f64>,
     pub forward: Vec<f64>,
     pub backward: Vec<f64>,
+}
+
+impl Shape {
+    /// The rows that move at each step of the shape's own crossing.
+    pub fn windows(&self) -> Option<Windows> {
+        let Some(margin) = self.crossing.track.as_ref().and_then(|track| track.window) else {
+            return Some(Windows::whole(self));
+        };
+        let values = self.crossing.assembly().matrices.values;
+        let parts = self.pattern.collect(&values);
+        let lower = dynamic(&parts, self.crossing.time_step);
+        let factor = self.pattern.factorise(&lower)?;
+        Some(Windows::about_train(
+            self,
+            margin,
+            (&lower, &parts.mass),
+            &factor,
+        ))
+    }
 }
 
 impl Windows {
