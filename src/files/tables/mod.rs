@@ -91,7 +91,7 @@ pub struct Column {
     pub unit: Unit,
     /// What it means.
     pub meaning: &'static str,
-    /// Whether its values repeat, so that a dictionary makes it small.
+    /// Whether its values repeat from row to row, so that compression makes it small.
     repeats: bool,
 }
 
