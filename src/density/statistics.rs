@@ -171,6 +171,8 @@ impl PowerSums {
 
 /// Fewer values are sorted at once.
 const FEW: usize = 64;
+/// More values of one share are sorted at once.
+const LITTLE: usize = 16;
 
 fn sort_all(pairs: &mut [(f64, f64)]) {
     pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
@@ -201,10 +203,21 @@ fn sort_by_share(pairs: &mut Vec<(f64, f64)>) {
     }
     let mut start = 0;
     for end in ends {
-        if end as usize > start + 1 {
-            sort_all(&mut sorted[start..end as usize]);
+        let share = &mut sorted[start..end as usize];
+        if share.len() > LITTLE {
+            sort_all(share);
         }
         start = end as usize;
+    }
+    // What is left lies a few places off.
+    for k in 1..sorted.len() {
+        let pair = sorted[k];
+        let mut at = k;
+        while at > 0 && sorted[at - 1].0 > pair.0 {
+            sorted[at] = sorted[at - 1];
+            at -= 1;
+        }
+        sorted[at] = pair;
     }
     *pairs = sorted;
 }

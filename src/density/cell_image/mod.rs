@@ -9,9 +9,9 @@
 //!   u = Φ(x). The share of a cell below y follows from the roots of A + Bδ + Cδ² = y, so that the
 //!   distribution function is exact for the piecewise quadratic. As positive Gaussians: width
 //!   0.6 max(|Δg|, |Δ²g|/2), Δg and Δ²g across the cell.
-//! * A few ([`CellSpace`]): a weighted quadratic through each point on its neighbours. A fine grid
-//!   over the space, each part belonging to the nearest point: the image of a part is a trapezoid, the sum
-//!   of two uniform variables, by the quadratic's value and slopes at the part's mean.
+//! * A few ([`CellSpace`]): a weighted quadratic through each point on its neighbours. The space in parts, the
+//!   finer the more probable, each belonging to the nearest point: the image of a part is the sum of two
+//!   tilted boxes, by the quadratic's value, slopes and bends at the part's mean.
 //!
 //! Both take the variables' scale ([`Scale`](super::known::Scale), u or x for each variable) on which the
 //! quadratics foretell the responses of further neighbours best, at each time anew.
@@ -25,8 +25,10 @@
 mod cumulative;
 mod line;
 mod neighbours;
+mod parts;
 mod quadratics;
 mod space;
+mod trapezoids;
 
 pub(super) use line::CellLine;
 pub(super) use space::CellSpace;
