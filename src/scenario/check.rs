@@ -12,24 +12,17 @@ use crate::BadInput;
 
 /// Checks that the scenario has known tables only, and that its title is text.
 pub(super) fn top_level(scenario: &Scenario) -> Result<(), BadInput> {
-    let schema = schema::shared();
     let table = scenario.effective.as_table();
-    known_keys(scenario, "", schema, table)?;
+    known_keys(scenario, "", schema::top_names(), table)?;
     if let Some(title) = table.get("title") {
-        item(
-            scenario,
-            "title",
-            &schema["properties"]["title"],
-            &Node::from(title),
-        )?;
+        item(scenario, "title", schema::part("title"), &Node::from(title))?;
     }
     Ok(())
 }
 
 /// Checks the table `name` of the scenario, and returns it as serde takes it.
 pub(super) fn top_table(scenario: &Scenario, name: &str, table: &Item) -> Result<Json, BadInput> {
-    let schema = &schema::shared()["properties"][name];
-    item(scenario, name, schema, &Node::from(table))
+    item(scenario, name, schema::part(name), &Node::from(table))
 }
 
 impl Scenario {
@@ -264,7 +257,11 @@ fn table(
     schema: &Json,
     entries: &dyn TableLike,
 ) -> Result<Json, BadInput> {
-    known_keys(scenario, key, schema, entries)?;
+    let properties = schema["properties"].as_object();
+    let names = properties
+        .into_iter()
+        .flat_map(|map| map.keys().map(String::as_str));
+    known_keys(scenario, key, names, entries)?;
     for name in schema["required"]
         .as_array()
         .into_iter()
@@ -287,18 +284,13 @@ fn table(
     Ok(Json::Object(map))
 }
 
-fn known_keys(
+fn known_keys<'a>(
     scenario: &Scenario,
     key: &str,
-    schema: &Json,
+    known: impl Iterator<Item = &'a str> + Clone,
     entries: &dyn TableLike,
 ) -> Result<(), BadInput> {
-    let properties = schema["properties"].as_object();
-    let known = || {
-        properties
-            .into_iter()
-            .flat_map(|map| map.keys().map(String::as_str))
-    };
+    let known = || known.clone();
     for (name, entry) in entries.iter() {
         if known().any(|known| known == name) {
             continue;

@@ -1,6 +1,6 @@
 //! The JSON Schema of a scenario, from the specs.
 
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
@@ -56,7 +56,7 @@ pub struct ScenarioSpec {
     pub study: Option<StudySpec>,
 }
 
-static SCHEMA: LazyLock<Value> = LazyLock::new(generate);
+static SCHEMA: LazyLock<Value> = LazyLock::new(generate::<ScenarioSpec>);
 
 /// The JSON Schema (2020-12) of a scenario, for editors. Descriptions are the specs' doc comments; a number's unit is
 /// in the brackets at the end of its first sentence.
@@ -67,6 +67,42 @@ pub fn json_schema() -> Value {
 /// The same, shared.
 pub(super) fn shared() -> &'static Value {
     &SCHEMA
+}
+
+/// The tables and keys at the top of a scenario, and how the schema of each is made.
+const PARTS: [(&str, fn() -> Value); 16] = [
+    ("bridge", generate::<BridgeSpec>),
+    ("contact", generate::<ContactSpec>),
+    ("correlation", generate::<Vec<CorrelationSpec>>),
+    ("density", generate::<DensitySpec>),
+    ("exact", generate::<ExactSpec>),
+    ("excitation", generate::<ExcitationSpec>),
+    ("irregularity", generate::<IrregularitySpec>),
+    ("oscillator", generate::<OscillatorSpec>),
+    ("points", generate::<PointsSpec>),
+    ("random", generate::<Vec<RandomSpec>>),
+    ("reliability", generate::<ReliabilitySpec>),
+    ("simulation", generate::<SimulationSpec>),
+    ("study", generate::<StudySpec>),
+    ("title", generate::<String>),
+    ("track", generate::<TrackSpec>),
+    ("vehicle", generate::<VehicleSpec>),
+];
+
+/// The names of what stands at the top of a scenario.
+pub(super) fn top_names() -> impl Iterator<Item = &'static str> + Clone {
+    PARTS.iter().map(|(name, _)| *name)
+}
+
+/// The schema of one of them, less what the scenario says of it: a stage makes those of its own tables only.
+///
+/// # Panics
+/// If there is none of that name.
+pub(super) fn part(name: &str) -> &'static Value {
+    static MADE: [OnceLock<Value>; PARTS.len()] = [const { OnceLock::new() }; PARTS.len()];
+    let known = PARTS.iter().zip(&MADE).find(|(part, _)| part.0 == name);
+    let ((_, generate), made) = known.expect("a table of the scenario");
+    made.get_or_init(generate)
 }
 
 /// Whether a scenario may have this key (`bridge.span`), whatever the kinds of its tables are.
@@ -121,13 +157,13 @@ pub(super) fn at(path: &[&str], item: Option<&Item>) -> Option<&'static Value> {
     Some(schema)
 }
 
-fn generate() -> Value {
+fn generate<T: JsonSchema>() -> Value {
     let settings = SchemaSettings::draft2020_12()
         .with(|s| s.inline_subschemas = true)
         .with_transform(Plain);
     settings
         .into_generator()
-        .into_root_schema_for::<ScenarioSpec>()
+        .into_root_schema_for::<T>()
         .to_value()
 }
 

@@ -147,14 +147,16 @@ impl Quadratic {
         }
     }
 
-    /// Splits `from` ... `to` where the quadratic turns.
-    fn monotone(self, from: f64, to: f64) -> [Option<(f64, f64)>; 2] {
-        let turn = -0.5 * self.slope / self.bend;
-        if turn > from && turn < to {
-            [Some((from, turn)), Some((turn, to))]
-        } else {
-            [Some((from, to)), None]
+    /// Where the quadratic turns, if between `from` and `to`.
+    #[inline(always)]
+    fn turn(self, from: f64, to: f64) -> Option<f64> {
+        // Its slopes at the ends then differ in sign.
+        let slope = |distance: f64| self.slope + 2.0 * self.bend * distance;
+        if slope(from) * slope(to) >= 0.0 {
+            return None;
         }
+        let turn = -0.5 * self.slope / self.bend;
+        (turn > from && turn < to).then_some(turn)
     }
 }
 
@@ -179,7 +181,7 @@ impl Rule for CellLine {
             .expect("there are scales");
         let image = Image { on, quadratics };
         match self.kernel {
-            CellKernel::Quadratic => Box::new(image),
+            CellKernel::Quadratic => Box::new(Pieces::new(&image)),
             CellKernel::Gaussian => {
                 let range = sample.largest - sample.least;
                 Box::new(CellGaussians::new(&image, range))
@@ -212,18 +214,69 @@ impl Image<'_> {
     }
 }
 
-impl Fit for Image<'_> {
+/// A part of a cell in which its quadratic rises or falls all the way.
+struct Piece {
+    quadratic: Quadratic,
+    origin: f64,
+    /// Its ends from there, and the response at each.
+    ends: [f64; 2],
+    responses: [f64; 2],
+    /// The probability below each end.
+    below: [f64; 2],
+}
+
+/// The pieces of all cells at one time.
+struct Pieces {
+    scale: Scale,
+    pieces: Vec<Piece>,
+}
+
+impl Pieces {
+    fn new(image: &Image<'_>) -> Self {
+        let OnScale {
+            scale,
+            coordinate,
+            below,
+            ..
+        } = image.on;
+        let mut pieces = Vec::with_capacity(coordinate.len() + 16);
+        for (q, from, to, k) in image.cells() {
+            let origin = coordinate[k];
+            let mut push = |ends: [f64; 2], below: [f64; 2]| {
+                pieces.push(Piece {
+                    quadratic: q,
+                    origin,
+                    ends,
+                    responses: ends.map(|end| q.at(end)),
+                    below,
+                });
+            };
+            match q.turn(from, to) {
+                Some(turn) => {
+                    let at_turn = scale.share(origin + turn);
+                    push([from, turn], [below[k], at_turn]);
+                    push([turn, to], [at_turn, below[k + 1]]);
+                }
+                None => push([from, to], [below[k], below[k + 1]]),
+            }
+        }
+        Pieces {
+            scale: *scale,
+            pieces,
+        }
+    }
+}
+
+impl Fit for Pieces {
     fn width(&self) -> f64 {
         0.0
     }
 
     fn extent(&self) -> Extent {
-        let pieces = self.cells().flat_map(|(q, from, to, _)| {
-            let pieces = q.monotone(from, to).into_iter().flatten();
-            pieces.flat_map(move |(from, to)| [q.at(from), q.at(to)])
-        });
-        let (least, largest) = pieces.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), y| {
-            (a.min(y), b.max(y))
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let (least, largest) = self.pieces.iter().fold(none, |(least, largest), piece| {
+            let [a, b] = piece.responses;
+            (least.min(a).min(b), largest.max(a).max(b))
         });
         Extent {
             least,
@@ -235,7 +288,7 @@ impl Fit for Image<'_> {
 
     fn curve(&self, nodes: Nodes) -> Smoothed {
         let sum = pulp::Arch::new().dispatch(Summing {
-            image: self,
+            pieces: self,
             sum: Cumulative::new(nodes),
         });
         Smoothed {
@@ -245,9 +298,9 @@ impl Fit for Image<'_> {
     }
 }
 
-/// The sum of all cells' images, for the machine's vector units.
+/// The sum of all pieces' images, for the machine's vector units.
 struct Summing<'a> {
-    image: &'a Image<'a>,
+    pieces: &'a Pieces,
     sum: Cumulative,
 }
 
@@ -256,29 +309,25 @@ impl WithSimd for Summing<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, _: S) -> Cumulative {
-        let (image, sum) = (self.image, &mut self.sum);
-        for (q, from, to, k) in image.cells() {
-            let (scale, origin) = (image.on.scale, image.on.coordinate[k]);
-            let inside = |distance: f64| scale.share(origin + distance);
-            let shares = [image.on.below[k], image.on.below[k + 1]];
-            for (a, b) in q.monotone(from, to).into_iter().flatten() {
-                let below = if a == from { shares[0] } else { inside(a) };
-                let until = if b == to { shares[1] } else { inside(b) };
-                let mass = until - below;
-                if mass <= 0.0 {
-                    continue;
-                }
-                let (at_a, at_b) = (q.at(a), q.at(b));
-                let side = if at_b >= at_a { 1.0 } else { -1.0 };
-                sum.add(mass, at_a.min(at_b), at_a.max(at_b), |y| {
-                    let share = inside(q.meets(y, side).clamp(a, b));
-                    (if side > 0.0 {
-                        share - below
-                    } else {
-                        until - share
-                    }) / mass
-                });
+        let Pieces { scale, pieces } = self.pieces;
+        for piece in pieces {
+            let [below, until] = piece.below;
+            let mass = until - below;
+            if mass <= 0.0 {
+                continue;
             }
+            let ([a, b], [at_a, at_b]) = (piece.ends, piece.responses);
+            let side = if at_b >= at_a { 1.0 } else { -1.0 };
+            let per_mass = 1.0 / mass;
+            self.sum.add(mass, at_a.min(at_b), at_a.max(at_b), |y| {
+                let place = piece.quadratic.meets(y, side).clamp(a, b);
+                let share = scale.share(piece.origin + place);
+                (if side > 0.0 {
+                    share - below
+                } else {
+                    until - share
+                }) * per_mass
+            });
         }
         self.sum
     }

@@ -141,9 +141,9 @@ impl<const N: usize, const T: usize, const R: usize, const K: usize, const M: us
         }
         // Two sums side by side.
         let mut sums = [[0.0; R]; 2];
-        for k in 0..K {
-            for t in 0..R {
-                sums[k % 2][t] += f64::from(fit.solution[k][t]) * difference[k];
+        for (k, (solution, difference)) in fit.solution.iter().zip(&difference).enumerate() {
+            for (sum, solution) in sums[k % 2].iter_mut().zip(solution) {
+                *sum += f64::from(*solution) * difference;
             }
         }
         let coefficients = std::array::from_fn(|t| sums[0][t] + sums[1][t]);

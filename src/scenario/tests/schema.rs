@@ -7,6 +7,7 @@ use serde_json::Value as Json;
 use super::oscillator::{CHAIN_KINDS, SINGLE_OTHERWISE, chain, single};
 use super::train::{TRAIN_KINDS, train};
 use super::*;
+use crate::scenario::schema;
 use crate::scenario::shape::Shape;
 use crate::scenario::train::{
     BallastedPreset, CarPreset, LoadModelKind, SlabPreset, WheelProfileKind,
@@ -74,6 +75,24 @@ fn is_tag(key: &str) -> bool {
         ".reliability.smoothing.rule",
     ];
     tags.contains(&key)
+}
+
+#[test]
+fn the_parts_are_those_of_the_whole() {
+    let whole = schema::shared()["properties"].as_object().unwrap();
+    let names: Vec<&str> = schema::top_names().collect();
+    assert_eq!(names, whole.keys().map(String::as_str).collect::<Vec<_>>());
+    // What the whole says of a part is about the scenario; what the part says of itself, about any.
+    let bare = |schema: &Json| {
+        let mut schema = schema.as_object().unwrap().clone();
+        for key in ["$schema", "title", "description"] {
+            schema.remove(key);
+        }
+        schema
+    };
+    for name in names {
+        assert_eq!(bare(schema::part(name)), bare(&whole[name]), "{name}");
+    }
 }
 
 #[test]
