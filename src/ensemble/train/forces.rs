@@ -29,7 +29,7 @@ impl<N: Numbers, M: Numbers> Kernel<'_, '_, N, M> {
                 for (k, row) in range.enumerate() {
                     let g = self.meeting_row::<S, W>(simd, &meeting.columns, first + k);
                     let d: Row<S, W> = inverse.row(simd, row);
-                    let y: Row<S, W> = load(simd, &self.state.next.values()[row * TRAIN_LANES..]);
+                    let y: Row<S, W> = load(simd, &self.state.middle.values()[row * TRAIN_LANES..]);
                     reached = each!(simd, j => {
                         let gd = simd.mul_f64s(g[j], d[j]);
                         simd.mul_add_f64s(gd, y[j], reached[j])
@@ -39,7 +39,7 @@ impl<N: Numbers, M: Numbers> Kernel<'_, '_, N, M> {
             for (k, row) in self.own_rows(index).enumerate() {
                 let d: Row<S, W> = inverse_of_cars.row(simd, row);
                 let g = self.own_column::<S, W>(simd, index, k);
-                let y: Row<S, W> = load(simd, &self.state.next.values()[row * TRAIN_LANES..]);
+                let y: Row<S, W> = load(simd, &self.state.middle.values()[row * TRAIN_LANES..]);
                 reached = each!(simd, j => {
                     let gd = simd.mul_f64s(g[j], d[j]);
                     simd.mul_add_f64s(gd, y[j], reached[j])
@@ -77,7 +77,7 @@ impl<N: Numbers, M: Numbers> Kernel<'_, '_, N, M> {
                 load(simd, &self.state.force_next.values()[index * TRAIN_LANES..]);
             for (k, row) in self.own_rows(index).enumerate() {
                 let g = self.own_column::<S, W>(simd, index, k);
-                let values = &mut self.state.next.values_mut()[row * TRAIN_LANES..];
+                let values = &mut self.state.middle.values_mut()[row * TRAIN_LANES..];
                 let y: Row<S, W> = load(simd, values);
                 let y = each!(simd, j => neg_mul_add(simd, g[j], force[j], y[j]));
                 store(simd, values, &y);
@@ -85,7 +85,7 @@ impl<N: Numbers, M: Numbers> Kernel<'_, '_, N, M> {
             for (range, first) in meeting.reaches[index].parts() {
                 for (k, row) in range.enumerate() {
                     let g = self.meeting_row::<S, W>(simd, &meeting.columns, first + k);
-                    let values = &mut self.state.next.values_mut()[row * TRAIN_LANES..];
+                    let values = &mut self.state.middle.values_mut()[row * TRAIN_LANES..];
                     let y: Row<S, W> = load(simd, values);
                     let y = each!(simd, j => neg_mul_add(simd, g[j], force[j], y[j]));
                     store(simd, values, &y);

@@ -1,7 +1,6 @@
 //! Vectors of lanes, and numbers that all lanes share or each has for itself.
 
 use pulp::Simd;
-use std::ops::Range;
 
 /// Points that are stepped together: fewer than the quarter car's, since the state of a track has to stay in the cache.
 pub const TRAIN_LANES: usize = 16;
@@ -100,7 +99,8 @@ pub(super) fn neg_mul_add<S: Simd>(simd: S, a: S::f64s, b: S::f64s, c: S::f64s) 
     simd.mul_add_f64s(simd.neg_f64s(a), b, c)
 }
 
-/// Adds Σ c x over the entries at `places` of a sparse row, whose first number is that of the place `first`.
+/// Adds Σ c x over the entries at `places` of a sparse row, in this order; its first number is that of the place
+/// `first`. Sums that wait for a row have it last.
 ///
 /// # Safety
 /// `places` lie in `columns`, all columns in `x`, and the numbers reach to the last place.
@@ -110,7 +110,7 @@ pub(super) unsafe fn add_products<S: Simd, const W: usize, N: Numbers>(
     mut sum: Row<S, W>,
     numbers: N,
     first: usize,
-    places: Range<usize>,
+    places: impl Iterator<Item = usize>,
     columns: &[u32],
     x: &[Row<S, W>],
 ) -> Row<S, W> {
@@ -126,4 +126,31 @@ pub(super) unsafe fn add_products<S: Simd, const W: usize, N: Numbers>(
         }
     }
     sum
+}
+
+/// Adds Σ c x over these columns to each of some sums, whose numbers begin at these places.
+///
+/// # Safety
+/// The columns are rows of x, and the numbers from each place are as many.
+#[inline(always)]
+pub(super) unsafe fn add_side_by_side<S: Simd, const W: usize, const M: usize, N: Numbers>(
+    simd: S,
+    mut sums: [Row<S, W>; M],
+    numbers: N,
+    places: [usize; M],
+    columns: impl Iterator<Item = usize>,
+    x: &[Row<S, W>],
+) -> [Row<S, W>; M] {
+    for (k, column) in columns.enumerate() {
+        // SAFETY: the caller's.
+        let x = unsafe { x.get_unchecked(column) };
+        for m in 0..M {
+            // SAFETY: the caller's.
+            let c: Row<S, W> = unsafe { numbers.row_unchecked(simd, places[m] + k) };
+            for j in 0..W {
+                sums[m][j] = simd.mul_add_f64s(c[j], x[j], sums[m][j]);
+            }
+        }
+    }
+    sums
 }

@@ -86,7 +86,7 @@ impl Trains {
         grid: (f64, f64, usize),
     ) -> Result<Trains, Refusal> {
         let times = crossing.times();
-        let mut trains = Trains::on(crossing, quantities, grid, times)?;
+        let mut trains = Trains::on(crossing, quantities, grid, (times, true))?;
         trains.windows = trains.shape.windows().ok_or(Refusal::Indefinite)?;
         trains.keep_meetings();
         Ok(trains)
@@ -126,7 +126,7 @@ impl Trains {
                 crossing_of,
                 structure,
             }),
-            ..Trains::on(longest, quantities, grid, times)?
+            ..Trains::on(longest, quantities, grid, (times, !structure))?
         };
         if !structure {
             trains.windows = trains.shape.windows().ok_or(Refusal::Indefinite)?;
@@ -139,10 +139,10 @@ impl Trains {
         crossing: TrainCrossing,
         quantities: &[Quantity],
         (start, spacing, count): (f64, f64, usize),
-        times: Vec<f64>,
+        (times, shared): (Vec<f64>, bool),
     ) -> Result<Trains, Refusal> {
-        let shape =
-            Shape::new(crossing, quantities).map_err(|off| Refusal::OffTrack(off.position))?;
+        let shape = Shape::new(crossing, quantities, shared)
+            .map_err(|off| Refusal::OffTrack(off.position))?;
         let numbers = shape.numbers(&shape.crossing).ok_or(Refusal::Indefinite)?;
         let of_step = |step: usize| {
             let first = shape.crossing.middle(step);

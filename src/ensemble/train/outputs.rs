@@ -70,6 +70,18 @@ impl Outputs {
         }
     }
 
+    /// The rows whose rates or accelerations are taken.
+    pub fn moving_rows(&self) -> Vec<usize> {
+        let planes = self.all.iter().flat_map(|output| match output {
+            Output::Motion { planes, .. } | Output::Fed { planes, .. } => &planes[1..],
+            Output::Contact(_) | Output::Unloading(_) | Output::Irregularity(_) => &[],
+        });
+        let mut rows: Vec<usize> = planes.flatten().copied().collect();
+        rows.sort_unstable();
+        rows.dedup();
+        rows
+    }
+
     /// How many numbers the outputs have.
     pub fn numbers(&self) -> usize {
         let of = |output: &Output| match output {

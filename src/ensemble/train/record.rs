@@ -1,9 +1,9 @@
 //! The outputs of a step.
 
 use super::kernel::Kernel;
-use super::lanes::{Numbers, Row, TRAIN_LANES, each, load, store};
+use super::lanes::{Numbers, Row, TRAIN_LANES, each, load, neg_mul_add, store};
 use super::outputs::Output;
-use super::shape::{INVERSE_STEP, LIGHTNESS, OF_WHEEL, WEIGHT};
+use super::shape::{INVERSE_STEP, LIGHTNESS, OF_WHEEL, STEP, WEIGHT};
 use super::state::State;
 use pulp::Simd;
 
@@ -20,9 +20,8 @@ impl<N: Numbers, M: Numbers> Kernel<'_, '_, N, M> {
         let zero = simd.splat_f64s(0.0);
         // At rest before the first step: no rate, and half of its w in both directions.
         let started = n > 0;
-        let inverse: Row<S, W> = self
-            .numbers
-            .row(simd, shape.layout.constants + INVERSE_STEP);
+        let constant = |index: usize| self.numbers.row(simd, shape.layout.constants + index);
+        let (step, inverse): (Row<S, W>, Row<S, W>) = (constant(STEP), constant(INVERSE_STEP));
         let force = |state: &State, wheel: usize| -> Row<S, W> {
             let now: Row<S, W> = load(simd, &state.force_next.values()[wheel * TRAIN_LANES..]);
             if !started {
@@ -41,12 +40,16 @@ impl<N: Numbers, M: Numbers> Kernel<'_, '_, N, M> {
                             let c: Row<S, W> = numbers.row(simd, at);
                             at += 1;
                             let range = row * TRAIN_LANES..;
+                            let after: Row<S, W> =
+                                load(simd, &self.state.middle.values()[range.clone()]);
                             let x: Row<S, W> = if plane == 0 {
-                                load(simd, &self.state.displacement.values()[range])
+                                // It is at the step's end already.
+                                let end: Row<S, W> =
+                                    load(simd, &self.state.displacement.values()[range]);
+                                each!(simd, j => neg_mul_add(simd, step[j], after[j], end[j]))
                             } else {
-                                let after: Row<S, W> =
-                                    load(simd, &self.state.next.values()[range.clone()]);
-                                let before: Row<S, W> = load(simd, &self.state.now.values()[range]);
+                                let before: Row<S, W> =
+                                    load(simd, &self.state.before.values()[range]);
                                 if plane == 1 {
                                     let both = if started { half } else { zero };
                                     each!(simd, j => simd.mul_f64s(

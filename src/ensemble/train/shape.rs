@@ -29,11 +29,15 @@ pub struct Shape {
     pub cars: Vec<Range<usize>>,
     pub track: Range<usize>,
     pub modes: Range<usize>,
+    /// Rows of the track of which L has entries in all modes.
+    pub full: Range<usize>,
     /// Of each fastener, its first row.
     pub fasteners: Vec<usize>,
     /// What carries each wheel in the middle of each step, `[step][wheel]`.
     pub places: Vec<Place>,
     pub outputs: Outputs,
+    /// The rows whose rates or accelerations outputs take.
+    pub moving: Vec<usize>,
     pub layout: Layout,
 }
 
@@ -44,12 +48,12 @@ pub struct Layout {
     pub constants: usize,
     /// Of each wheel: W, δ_W, softness or G, 1/W.
     pub wheels: usize,
-    /// 1/D; −L below its diagonal by rows, and by columns; whole rows of h K and of C.
+    /// 1/D; −L below its diagonal by rows, and by columns; whole rows of −K and of 2M/h.
     pub inverse: usize,
     pub forward: usize,
     pub backward: usize,
     pub stiffness: usize,
-    pub damping: usize,
+    pub mass: usize,
     pub outputs: usize,
     /// The static displacements at the start.
     pub start: usize,
@@ -76,13 +80,26 @@ pub struct OffTrack {
 }
 
 impl Shape {
+    /// `shared` says whether all points share track and deck, whose factor is then that of the crossing.
+    ///
     /// # Errors
     /// A wheel that leaves the rail.
-    pub fn new(crossing: TrainCrossing, quantities: &[Quantity]) -> Result<Shape, OffTrack> {
+    pub fn new(
+        crossing: TrainCrossing,
+        quantities: &[Quantity],
+        shared: bool,
+    ) -> Result<Shape, OffTrack> {
         let assembly = crossing.assembly();
         let matrices = &assembly.matrices;
-        let damped = |piece: usize| matrices.values[piece][1] != 0.0;
-        let pattern = Pattern::new(matrices.size, &matrices.places, damped);
+        let massive = |piece: usize| matrices.values[piece][0] != 0.0;
+        let mut pattern = Pattern::new(matrices.size, &matrices.places, massive);
+        let first_mode = assembly.deck.as_ref().map_or(matrices.size, |d| d.first);
+        if shared {
+            let lower = dynamic(&pattern.collect(&matrices.values), crossing.time_step);
+            if let Some(factor) = pattern.factorise(&lower) {
+                pattern.prune(&factor, first_mode..matrices.size);
+            }
+        }
         let wheels = assembly.wheels();
         let laws = wheels.iter().map(|wheel| law(&crossing, wheel)).collect();
         let mut places = Vec::with_capacity((crossing.steps + 1) * wheels.len());
@@ -98,7 +115,19 @@ impl Shape {
             .map(|car| car.first..car.first + car.bodies.inertia.len())
             .collect();
         let after_cars = cars.last().map_or(0, |car| car.end);
-        let first_mode = assembly.deck.as_ref().map_or(matrices.size, |d| d.first);
+        let modes = first_mode..matrices.size;
+        let is_full = |row: &usize| {
+            let columns = &pattern.factor_columns;
+            let columns = &columns.columns[columns.range(*row)];
+            modes.len() <= columns.len()
+                && columns[columns.len() - modes.len()..]
+                    .iter()
+                    .map(|column| *column as usize)
+                    .eq(modes.clone())
+        };
+        let mut track = after_cars..first_mode;
+        let first_full = track.find(is_full).unwrap_or(first_mode);
+        let full = first_full..track.find(|row| !is_full(row)).unwrap_or(first_mode);
         let outputs = Outputs::new(&crossing, &assembly, &wheels, quantities);
         let mut layout = Layout::default();
         let mut size = 0;
@@ -112,7 +141,7 @@ impl Shape {
         layout.forward = take(pattern.factor.columns.len());
         layout.backward = take(pattern.factor.columns.len());
         layout.stiffness = take(pattern.stiffness.columns.len());
-        layout.damping = take(pattern.damping.columns.len());
+        layout.mass = take(pattern.mass.columns.len());
         layout.outputs = take(outputs.numbers());
         layout.start = take(pattern.size);
         layout.size = size;
@@ -120,9 +149,11 @@ impl Shape {
             laws,
             cars,
             track: after_cars..first_mode,
-            modes: first_mode..matrices.size,
+            modes,
+            full,
             fasteners: assembly.track.map_or_else(Vec::new, |track| track.firsts),
             places,
+            moving: outputs.moving_rows(),
             outputs,
             layout,
             wheels,
@@ -146,7 +177,7 @@ impl Shape {
         let assembly = crossing.assembly();
         let h = self.step(crossing);
         let lower = self.pattern.collect(&assembly.matrices.values);
-        let (c, k) = (&lower.damping, &lower.stiffness);
+        let (m, k) = (&lower.mass, &lower.stiffness);
         let dynamic = dynamic(&lower, h);
         let factor = self.pattern.factorise(&dynamic)?;
         let mut list = Vec::with_capacity(self.layout.size);
@@ -165,8 +196,8 @@ impl Shape {
         list.extend(&factor.inverse);
         list.extend(factor.lower.iter().map(|l| -l));
         list.extend(self.pattern.by_columns(&factor, 0..self.size()).map(|l| -l));
-        list.extend(self.pattern.whole_stiffness(k).map(|k| h * k));
-        list.extend(self.pattern.whole_damping(c));
+        list.extend(self.pattern.whole_stiffness(k).map(|k| -k));
+        list.extend(self.pattern.whole_mass(m).map(|m| 2.0 / h * m));
         self.outputs
             .collect(crossing, &assembly, &wheels, &mut list);
         list.extend(self.start(crossing, &assembly, &lower)?);

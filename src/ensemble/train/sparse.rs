@@ -40,12 +40,15 @@ pub struct Pattern {
     pub factor: Rows,
     pub factor_columns: Rows,
     column_slots: Vec<u32>,
-    /// Whole rows of K, and of C where it is not empty, with places in the lower triangle.
+    /// Whole rows of K, and of M where it is not empty, with places in the lower triangle.
     pub stiffness: Rows,
     stiffness_slots: Vec<u32>,
-    pub damping: Rows,
-    damping_slots: Vec<u32>,
+    pub mass: Rows,
+    mass_slots: Vec<u32>,
 }
+
+/// What is lost in rounding.
+const LOST: f64 = 1e-16;
 
 /// M, C and K in the lower triangle of a pattern.
 #[derive(Debug, Clone)]
@@ -63,18 +66,18 @@ pub struct Factor {
 }
 
 impl Pattern {
-    /// `places` (row, column ≤ row) of the pieces; `damped` says which of them have damping.
-    pub fn new(size: usize, places: &[(u32, u32)], damped: impl Fn(usize) -> bool) -> Pattern {
+    /// `places` (row, column ≤ row) of the pieces; `massive` says which of them have mass.
+    pub fn new(size: usize, places: &[(u32, u32)], massive: impl Fn(usize) -> bool) -> Pattern {
         let mut rows: Vec<Vec<u32>> = (0..size as u32).map(|row| vec![row]).collect();
-        let mut damped_rows: Vec<Vec<u32>> = vec![Vec::new(); size];
+        let mut massive_rows: Vec<Vec<u32>> = vec![Vec::new(); size];
         for (piece, (row, column)) in places.iter().enumerate() {
             rows[*row as usize].push(*column);
-            if damped(piece) {
-                damped_rows[*row as usize].push(*column);
-                damped_rows[*column as usize].push(*row);
+            if massive(piece) {
+                massive_rows[*row as usize].push(*column);
+                massive_rows[*column as usize].push(*row);
             }
         }
-        for row in rows.iter_mut().chain(&mut damped_rows) {
+        for row in rows.iter_mut().chain(&mut massive_rows) {
             row.sort_unstable();
             row.dedup();
         }
@@ -99,29 +102,58 @@ impl Pattern {
                 .map(|(row, column)| slot(row, column))
                 .collect()
         };
-        let filled = fill(&rows);
-        let factor = Rows::of(&filled);
-        let mut columns: Vec<Vec<u32>> = vec![Vec::new(); size];
-        let mut column_slots: Vec<Vec<u32>> = vec![Vec::new(); size];
-        for row in 0..size {
-            for place in factor.range(row) {
-                let column = factor.columns[place] as usize;
-                columns[column].push(row as u32);
-                column_slots[column].push(place as u32);
-            }
-        }
-        Pattern {
+        let mut pattern = Pattern {
             size,
             stiffness: Rows::of(&whole),
             stiffness_slots: of_rows(&whole),
-            damping: Rows::of(&damped_rows),
-            damping_slots: of_rows(&damped_rows),
-            factor,
-            factor_columns: Rows::of(&columns),
-            column_slots: column_slots.concat(),
+            mass: Rows::of(&massive_rows),
+            mass_slots: of_rows(&massive_rows),
+            factor: Rows::default(),
+            factor_columns: Rows::default(),
+            column_slots: Vec::new(),
             lower,
             slots,
+        };
+        pattern.set_factor(&fill(&rows));
+        pattern
+    }
+
+    /// Sets the columns of each row of L below its diagonal.
+    fn set_factor(&mut self, rows: &[Vec<u32>]) {
+        let factor = Rows::of(rows);
+        let mut columns: Vec<Vec<u32>> = vec![Vec::new(); self.size];
+        let mut slots: Vec<Vec<u32>> = vec![Vec::new(); self.size];
+        for row in 0..self.size {
+            for place in factor.range(row) {
+                let column = factor.columns[place] as usize;
+                columns[column].push(row as u32);
+                slots[column].push(place as u32);
+            }
         }
+        self.factor = factor;
+        self.factor_columns = Rows::of(&columns);
+        self.column_slots = slots.concat();
+    }
+
+    /// Leaves out of `rows` what is lost in rounding at the end of the columns before those rows: what couples them
+    /// has died out there. Of a factor of a matrix of this pattern.
+    pub fn prune(&mut self, factor: &Factor, rows: Range<usize>) {
+        let mut kept: Vec<Vec<u32>> = (0..self.size)
+            .map(|row| self.factor.columns[self.factor.range(row)].to_vec())
+            .collect();
+        for row in rows.clone() {
+            let first = self.factor.range(row).start;
+            let columns = &mut kept[row];
+            let before = columns.partition_point(|column| (*column as usize) < rows.start);
+            // An entry of the Cholesky factor beside the root of its row's diagonal.
+            let counts = |k: &usize| {
+                let scale = factor.inverse[row] / factor.inverse[columns[*k] as usize];
+                factor.lower[first + k].powi(2) * scale > LOST * LOST
+            };
+            let end = (0..before).rev().find(counts).map_or(0, |last| last + 1);
+            columns.drain(end..before);
+        }
+        self.set_factor(&kept);
     }
 
     /// Sums the pieces.
@@ -256,9 +288,9 @@ impl Pattern {
             .map(|slot| lower[*slot as usize])
     }
 
-    /// Values of whole rows of the damping.
-    pub fn whole_damping<'a>(&'a self, lower: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        self.damping_slots.iter().map(|slot| lower[*slot as usize])
+    /// Values of whole rows of the mass.
+    pub fn whole_mass<'a>(&'a self, lower: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        self.mass_slots.iter().map(|slot| lower[*slot as usize])
     }
 
     /// Values of L by columns, of these columns.

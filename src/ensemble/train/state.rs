@@ -7,15 +7,13 @@ use crate::ensemble::lanes::Aligned;
 /// See [`super::kernel`] for the symbols.
 #[derive(Debug)]
 pub(super) struct State {
-    /// w of the step before and, while a step is made, y and w of this one.
-    pub now: Aligned,
-    pub next: Aligned,
-    /// u.
+    /// u and v at the start of a step and, when its w is found, at its end.
     pub displacement: Aligned,
-    /// s = K u.
-    pub spring: Aligned,
-    /// r.
-    pub load: Aligned,
+    pub velocity: Aligned,
+    /// y and then w of a step.
+    pub middle: Aligned,
+    /// w of the step before, of the rows of outputs.
+    pub before: Aligned,
     /// F of each wheel in the step before and in this one.
     pub force: Aligned,
     pub force_next: Aligned,
@@ -30,11 +28,10 @@ impl State {
         let rows = |count: usize| Aligned::new(count.max(1) * TRAIN_LANES);
         let (size, wheels) = (shape.size(), shape.wheels.len());
         State {
-            now: rows(size),
-            next: rows(size),
             displacement: rows(size),
-            spring: rows(size),
-            load: rows(size),
+            velocity: rows(size),
+            middle: rows(size),
+            before: rows(size),
             force: rows(wheels),
             force_next: rows(wheels),
             gap: rows(wheels),
@@ -52,7 +49,7 @@ impl State {
         heights: &[f64],
     ) {
         let layout = &shape.layout;
-        for plane in [&mut self.now, &mut self.next] {
+        for plane in [&mut self.velocity, &mut self.middle, &mut self.before] {
             plane.values_mut().fill(0.0);
         }
         for lane in 0..TRAIN_LANES {
@@ -69,27 +66,12 @@ impl State {
                     u[row * TRAIN_LANES + lane] += lift;
                 }
             }
-            for row in 0..shape.size() {
-                let range = shape.pattern.stiffness.range(row);
-                let spring: f64 = range
-                    .map(|place| {
-                        let column = shape.pattern.stiffness.columns[place] as usize;
-                        number(layout.stiffness + place, lane) * u[column * TRAIN_LANES + lane]
-                    })
-                    .sum();
-                let spring = spring / number(layout.constants, lane);
-                self.spring.values_mut()[row * TRAIN_LANES + lane] = spring;
-                self.load.values_mut()[row * TRAIN_LANES + lane] = spring;
-            }
-            for (index, wheel) in shape.wheels.iter().enumerate() {
+            for index in 0..shape.wheels.len() {
                 let weight = number(layout.wheels + OF_WHEEL * index + WEIGHT, lane);
                 let at = index * TRAIN_LANES + lane;
                 self.force.values_mut()[at] = weight;
                 self.force_next.values_mut()[at] = weight;
                 self.root.values_mut()[at] = weight.cbrt();
-                if let Some(row) = wheel.row {
-                    self.load.values_mut()[row * TRAIN_LANES + lane] += weight;
-                }
             }
         }
     }

@@ -43,7 +43,7 @@ impl Trains {
         }
         let pattern = &self.shape.pattern;
         let of_step = pattern.stiffness.columns.len()
-            + pattern.damping.columns.len()
+            + pattern.mass.columns.len()
             + 2 * pattern.factor.columns.len();
         let stepped = STEP_COST * (of_step * self.shape.crossing.steps) as f64;
         // Heights are felt for half of the run, in the mean.

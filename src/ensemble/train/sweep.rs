@@ -1,25 +1,25 @@
 //! The two sweeps of a step's solution, down the rows and up again.
 
-use super::lanes::{Numbers, Row, add_products, each};
-use super::shape::{STEP, Shape};
+use super::lanes::{Numbers, Row, add_products, add_side_by_side, each};
+use super::shape::Shape;
 use super::sparse::Rows;
 use super::state::State;
 use super::window::Part;
 use pulp::Simd;
 use std::ops::Range;
 
-/// One sweep down the rows: ends a step and eliminates.
+/// Sums that are made side by side: they do not wait for each other.
+const SIDE_BY_SIDE: usize = 3;
+
+/// One sweep down the rows.
 pub(super) struct Sweep<'a, S: Simd, const W: usize, N> {
     simd: S,
     shape: &'a Shape,
     stiffness: N,
-    damping: N,
-    step: Row<S, W>,
-    w: &'a [Row<S, W>],
+    mass: N,
+    u: &'a [Row<S, W>],
+    v: &'a [Row<S, W>],
     y: &'a mut [Row<S, W>],
-    u: &'a mut [Row<S, W>],
-    s: &'a mut [Row<S, W>],
-    r: &'a mut [Row<S, W>],
 }
 
 impl<'a, S: Simd, const W: usize, N: Numbers> Sweep<'a, S, W, N> {
@@ -29,74 +29,84 @@ impl<'a, S: Simd, const W: usize, N: Numbers> Sweep<'a, S, W, N> {
             simd,
             shape,
             stiffness: numbers.from(shape.layout.stiffness),
-            damping: numbers.from(shape.layout.damping),
-            step: numbers.row(simd, shape.layout.constants + STEP),
-            w: rows::<S, W>(state.now.values()),
-            y: rows_mut::<S, W>(state.next.values_mut()),
-            u: rows_mut::<S, W>(state.displacement.values_mut()),
-            s: rows_mut::<S, W>(state.spring.values_mut()),
-            r: rows_mut::<S, W>(state.load.values_mut()),
+            mass: numbers.from(shape.layout.mass),
+            u: rows::<S, W>(state.displacement.values()),
+            v: rows::<S, W>(state.velocity.values()),
+            y: rows_mut::<S, W>(state.middle.values_mut()),
         }
     }
 
-    /// u, s and r of a row at the end of a step; r.
+    /// 2 M v/h − K u of a row, added to a sum.
     #[inline(always)]
-    pub fn end_step(&mut self, row: usize) -> Row<S, W> {
+    fn load(&self, row: usize, sum: Row<S, W>) -> Row<S, W> {
         let (simd, pattern) = (self.simd, &self.shape.pattern);
-        // SAFETY: the pattern's columns are rows of the system, which w has one each of; the lists of numbers are those
-        // of the pattern (`Shape::numbers`).
-        let (spring, pull) = unsafe {
-            let (k, c) = (&pattern.stiffness, &pattern.damping);
-            let spring = add_products(
-                simd,
-                self.s[row],
-                self.stiffness,
-                0,
-                k.range(row),
-                &k.columns,
-                self.w,
-            );
-            let pull = add_products(
-                simd,
-                spring,
-                self.damping,
-                0,
-                c.range(row),
-                &c.columns,
-                self.w,
-            );
-            (spring, pull)
-        };
-        self.s[row] = spring;
-        let minus_two = simd.splat_f64s(-2.0);
-        let mut load = self.r[row];
-        let (u, w) = (&mut self.u[row], &self.w[row]);
-        for j in 0..W {
-            load[j] = simd.mul_add_f64s(minus_two, pull[j], load[j]);
-            u[j] = simd.mul_add_f64s(self.step[j], w[j], u[j]);
+        let (k, m) = (&pattern.stiffness, &pattern.mass);
+        // SAFETY: the pattern's columns are rows of the system, which u and v have one each of; the lists of
+        // numbers are those of the pattern (`Shape::numbers`).
+        unsafe {
+            let (places, columns) = (m.range(row), &m.columns);
+            let sum = add_products(simd, sum, self.mass, 0, places, columns, self.v);
+            let (places, columns) = (k.range(row), &k.columns);
+            add_products(simd, sum, self.stiffness, 0, places, columns, self.u)
         }
-        self.r[row] = load;
-        load
     }
 
-    /// These rows, with −L in `lower` from the place `first` on.
+    /// The loads of all modes. Those of a span are coupled to the same rows.
     #[inline(always)]
-    pub fn rows<L: Numbers>(&mut self, rows: Range<usize>, lower: L, first: usize) {
-        let factor = &self.shape.pattern.factor;
+    fn load_modes(&mut self, zero: Row<S, W>) {
+        let (simd, modes) = (self.simd, self.shape.modes.clone());
+        let (k, m) = (&self.shape.pattern.stiffness, &self.shape.pattern.mass);
+        let mut row = modes.start;
+        while row < modes.end {
+            let alike = row + SIDE_BY_SIDE <= modes.end
+                && (1..SIDE_BY_SIDE)
+                    .all(|next| k.columns[k.range(row)] == k.columns[k.range(row + next)]);
+            if !alike {
+                self.y[row] = self.load(row, zero);
+                row += 1;
+                continue;
+            }
+            let mut sums = [zero; SIDE_BY_SIDE];
+            let mut starts = [0; SIDE_BY_SIDE];
+            for (next, (sum, start)) in sums.iter_mut().zip(&mut starts).enumerate() {
+                // SAFETY: as in `load`.
+                *sum = unsafe {
+                    let (places, columns) = (m.range(row + next), &m.columns);
+                    add_products(simd, zero, self.mass, 0, places, columns, self.v)
+                };
+                *start = k.range(row + next).start;
+            }
+            let columns = k.columns[k.range(row)]
+                .iter()
+                .map(|column| *column as usize);
+            // SAFETY: the numbers of each row are those of these columns.
+            let sums =
+                unsafe { add_side_by_side(simd, sums, self.stiffness, starts, columns, self.u) };
+            self.y[row..row + SIDE_BY_SIDE].copy_from_slice(&sums);
+            row += SIDE_BY_SIDE;
+        }
+    }
+
+    /// These rows, with −L in `lower` from the place `first` on; `weight` is what presses on a row.
+    #[inline(always)]
+    pub fn rows<L: Numbers>(
+        &mut self,
+        rows: Range<usize>,
+        (lower, first): (L, usize),
+        weight: impl Fn(usize) -> Option<Row<S, W>>,
+    ) {
+        let (simd, factor) = (self.simd, &self.shape.pattern.factor);
+        let zero = [simd.splat_f64s(0.0); W];
         for row in rows {
-            let load = self.end_step(row);
+            let pressed = match weight(row) {
+                Some(weight) => each!(simd, j => simd.neg_f64s(weight[j])),
+                None => zero,
+            };
+            let load = self.load(row, pressed);
             // SAFETY: as above; `lower` has the places of these rows.
             self.y[row] = unsafe {
                 let places = factor.range(row);
-                add_products(
-                    self.simd,
-                    load,
-                    lower,
-                    first,
-                    places,
-                    &factor.columns,
-                    self.y,
-                )
+                add_products(simd, load, lower, first, places, &factor.columns, self.y)
             };
         }
     }
@@ -107,9 +117,8 @@ impl<'a, S: Simd, const W: usize, N: Numbers> Sweep<'a, S, W, N> {
         const SHORT: usize = 64;
         let shape = self.shape;
         let factor = &shape.pattern.factor;
-        for row in shape.modes.clone() {
-            self.y[row] = self.end_step(row);
-        }
+        let zero = [self.simd.splat_f64s(0.0); W];
+        self.load_modes(zero);
         let at = |row: usize, column: usize| {
             let range = factor.range(row);
             let columns = &factor.columns[range.clone()];
@@ -123,13 +132,33 @@ impl<'a, S: Simd, const W: usize, N: Numbers> Sweep<'a, S, W, N> {
         for part in track {
             for first in part.rows.clone().step_by(SHORT) {
                 let end = (first + SHORT).min(part.rows.end);
-                for row in shape.modes.clone() {
-                    let places = at(row, first)..at(row, end);
-                    // SAFETY: as above.
-                    self.y[row] = unsafe {
-                        let sum = self.y[row];
-                        add_products(self.simd, sum, lower, 0, places, &factor.columns, self.y)
-                    };
+                let mut row = shape.modes.start;
+                while row < shape.modes.end {
+                    let places: [Range<usize>; SIDE_BY_SIDE] = std::array::from_fn(|k| {
+                        let row = (row + k).min(shape.modes.end - 1);
+                        at(row, first)..at(row, end)
+                    });
+                    let is_full = |places: &Range<usize>| places.len() == end - first;
+                    let last = row + SIDE_BY_SIDE;
+                    if last <= shape.modes.end && places.iter().all(is_full) {
+                        let mut sums = [zero; SIDE_BY_SIDE];
+                        sums.copy_from_slice(&self.y[row..last]);
+                        let starts = places.map(|places| places.start);
+                        // SAFETY: full rows, each number of which belongs to one of these columns.
+                        let sums: [_; SIDE_BY_SIDE] = unsafe {
+                            add_side_by_side(self.simd, sums, lower, starts, first..end, self.y)
+                        };
+                        self.y[row..last].copy_from_slice(&sums);
+                        row = last;
+                    } else {
+                        let [places, ..] = places;
+                        // SAFETY: as above.
+                        self.y[row] = unsafe {
+                            let sum = self.y[row];
+                            add_products(self.simd, sum, lower, 0, places, &factor.columns, self.y)
+                        };
+                        row += 1;
+                    }
                 }
             }
         }
@@ -144,25 +173,86 @@ impl<'a, S: Simd, const W: usize, N: Numbers> Sweep<'a, S, W, N> {
     }
 }
 
-/// Substitutes back over these rows; the numbers of 1/D and of −Lᵀ begin with those of a row and of a place.
-#[inline(always)]
-pub(super) fn back<S: Simd, const W: usize, N: Numbers>(
+/// One sweep up the rows: w of each, and u and v at the end of the step.
+pub(super) struct Back<'a, S: Simd, const W: usize> {
     simd: S,
-    columns: &Rows,
-    rows: Range<usize>,
-    (inverse, first_row): (N, usize),
-    (upper, first): (N, usize),
-    y: &mut [Row<S, W>],
-) {
-    for row in rows.rev() {
-        let d: Row<S, W> = inverse.row(simd, row - first_row);
-        let own = y[row];
-        let scaled = each!(simd, j => simd.mul_f64s(d[j], own[j]));
-        // SAFETY: the pattern's rows are rows of the system; `upper` has the places of these rows.
-        y[row] = unsafe {
-            let places = columns.range(row);
-            add_products(simd, scaled, upper, first, places, &columns.columns, y)
-        };
+    columns: &'a Rows,
+    step: Row<S, W>,
+    u: &'a mut [Row<S, W>],
+    v: &'a mut [Row<S, W>],
+    y: &'a mut [Row<S, W>],
+}
+
+impl<'a, S: Simd, const W: usize> Back<'a, S, W> {
+    #[inline(always)]
+    pub fn new(simd: S, shape: &'a Shape, step: Row<S, W>, state: &'a mut State) -> Self {
+        Back {
+            simd,
+            columns: &shape.pattern.factor_columns,
+            step,
+            u: rows_mut::<S, W>(state.displacement.values_mut()),
+            v: rows_mut::<S, W>(state.velocity.values_mut()),
+            y: rows_mut::<S, W>(state.middle.values_mut()),
+        }
+    }
+
+    /// y/D of a row.
+    #[inline(always)]
+    fn scaled<N: Numbers>(&self, row: usize, inverse: N, first: usize) -> Row<S, W> {
+        let simd = self.simd;
+        let d: Row<S, W> = inverse.row(simd, row - first);
+        let y = &self.y[row];
+        each!(simd, j => simd.mul_f64s(d[j], y[j]))
+    }
+
+    /// These rows; the numbers of 1/D and of −Lᵀ begin with those of a row and of a place. Rows in `full` reach
+    /// all modes, which are known already: their shares come first, some rows side by side, so that the sums of a row
+    /// that wait for the one before are few.
+    #[inline(always)]
+    pub fn rows<N: Numbers>(
+        &mut self,
+        rows: Range<usize>,
+        (inverse, first_row): (N, usize),
+        (upper, first): (N, usize),
+        (full, modes): (&Range<usize>, &Range<usize>),
+    ) {
+        let (simd, columns) = (self.simd, self.columns);
+        let full = full.start.max(rows.start)..full.end.min(rows.end);
+        let mut done = full.start..full.start;
+        while done.end + SIDE_BY_SIDE <= full.end {
+            let row = done.end;
+            let mut sums = [[simd.splat_f64s(0.0); W]; SIDE_BY_SIDE];
+            let mut starts = [0; SIDE_BY_SIDE];
+            for (k, (sum, start)) in sums.iter_mut().zip(&mut starts).enumerate() {
+                *sum = self.scaled(row + k, inverse, first_row);
+                *start = columns.range(row + k).end - modes.len() - first;
+            }
+            // SAFETY: the last columns of a full row are the modes.
+            let sums =
+                unsafe { add_side_by_side(simd, sums, upper, starts, modes.clone(), self.y) };
+            self.y[row..row + SIDE_BY_SIDE].copy_from_slice(&sums);
+            done.end = row + SIDE_BY_SIDE;
+        }
+        for row in rows.rev() {
+            let mut places = columns.range(row);
+            let sum = if done.contains(&row) {
+                places.end -= modes.len();
+                self.y[row]
+            } else {
+                self.scaled(row, inverse, first_row)
+            };
+            // SAFETY: the pattern's rows are rows of the system; `upper` has the places of these rows.
+            let w = unsafe {
+                let places = places.rev();
+                add_products(simd, sum, upper, first, places, &columns.columns, self.y)
+            };
+            self.y[row] = w;
+            let (u, v) = (&mut self.u[row], &mut self.v[row]);
+            for j in 0..W {
+                u[j] = simd.mul_add_f64s(self.step[j], w[j], u[j]);
+                v[j] = simd.sub_f64s(simd.add_f64s(w[j], w[j]), v[j]);
+            }
+        }
     }
 }
 

@@ -15,8 +15,6 @@ pub struct Windows {
     of_step: Vec<u32>,
     windows: Vec<Window>,
     edges: Vec<Edge>,
-    /// Whole rows of 2M/h, in the pattern of the stiffness.
-    pub mass: Vec<f64>,
 }
 
 /// Rows that move together: ascending, apart from each other; cars and modes besides.
@@ -33,8 +31,6 @@ pub struct Part {
     pub rows: Range<usize>,
     /// Which of the edges; none where the block begins with the track.
     pub edge: Option<usize>,
-    /// The rows beside its right end, which it pulls at while they are held.
-    pub held: Range<usize>,
 }
 
 /// The factor at the left end of a block: 1/D, −L by rows and by columns, of its rows.
@@ -53,15 +49,9 @@ impl Shape {
             return Some(Windows::whole(self));
         };
         let values = self.crossing.assembly().matrices.values;
-        let parts = self.pattern.collect(&values);
-        let lower = dynamic(&parts, self.crossing.time_step);
+        let lower = dynamic(&self.pattern.collect(&values), self.crossing.time_step);
         let factor = self.pattern.factorise(&lower)?;
-        Some(Windows::about_train(
-            self,
-            margin,
-            (&lower, &parts.mass),
-            &factor,
-        ))
+        Some(Windows::about_train(self, margin, &lower, &factor))
     }
 }
 
@@ -71,7 +61,6 @@ impl Windows {
         let whole = Part {
             rows: shape.track.clone(),
             edge: None,
-            held: shape.track.end..shape.track.end,
         };
         Windows {
             of_step: vec![0; shape.crossing.steps + 1],
@@ -80,17 +69,11 @@ impl Windows {
                 modes: true,
             }],
             edges: Vec::new(),
-            mass: Vec::new(),
         }
     }
 
     /// The track within `margin` (m) of the train and of the bridge; `lower` is the matrix A, `factor` its factor.
-    pub fn about_train(
-        shape: &Shape,
-        margin: f64,
-        (lower, mass): (&[f64], &[f64]),
-        factor: &Factor,
-    ) -> Windows {
+    pub fn about_train(shape: &Shape, margin: f64, lower: &[f64], factor: &Factor) -> Windows {
         let Some(track) = &shape.crossing.track else {
             return Windows::whole(shape);
         };
@@ -115,15 +98,7 @@ impl Windows {
             .deck
             .as_ref()
             .map(|deck| rows(-margin, deck.length() + margin));
-        let twice = 2.0 / shape.crossing.time_step;
-        let mut all = Windows {
-            mass: shape
-                .pattern
-                .whole_stiffness(mass)
-                .map(|m| twice * m)
-                .collect(),
-            ..Windows::default()
-        };
+        let mut all = Windows::default();
         let mut work = factor.clone();
         let mut scaled = vec![0.0; shape.size()];
         let mut reached = false;
@@ -146,9 +121,7 @@ impl Windows {
             if !known {
                 let track = ranges.into_iter().map(|rows| {
                     let edge = all.edge(shape, &rows, lower, factor, &mut work, &mut scaled);
-                    let next = firsts.partition_point(|first| *first <= rows.end);
-                    let held = rows.end..firsts.get(next).copied().unwrap_or(shape.track.end);
-                    Part { rows, edge, held }
+                    Part { rows, edge }
                 });
                 let track = track.collect();
                 all.windows.push(Window {
@@ -190,21 +163,6 @@ impl Windows {
             .flat_map(|part| part.rows.clone())
             .filter(|row| !moves(row))
             .collect()
-    }
-
-    /// The rows that were held in the step before, and whether each moves now.
-    pub fn held(&self, step: usize) -> impl Iterator<Item = (usize, bool)> + '_ {
-        let moves = move |row: usize| {
-            self.at(step)
-                .track
-                .iter()
-                .any(|part| part.rows.contains(&row))
-        };
-        let before = step.checked_sub(1).map(|before| self.at(before));
-        let parts = before.into_iter().flat_map(|window| &window.track);
-        parts
-            .flat_map(|part| part.held.clone())
-            .map(move |row| (row, moves(row)))
     }
 
     fn edge(
