@@ -8,6 +8,19 @@ pub const TRAIN_LANES: usize = 16;
 /// A row of lanes in `W` vectors.
 pub(super) type Row<S, const W: usize> = [<S as Simd>::f64s; W];
 
+/// A row by an expression for vector `j`. (A closure might not be inlined, and would then lose the machine's
+/// vectors.)
+macro_rules! each {
+    ($simd:expr, $j:ident => $value:expr) => {{
+        let mut row = [$simd.splat_f64s(0.0); W];
+        for $j in 0..W {
+            row[$j] = $value;
+        }
+        row
+    }};
+}
+pub(super) use each;
+
 /// A list of numbers as the kernel loads them.
 pub(super) trait Numbers: Copy {
     /// Number `index` in all lanes.
@@ -68,9 +81,9 @@ impl Numbers for PerLane<'_> {
 
 /// The first W vectors of some values.
 #[inline(always)]
-pub(super) fn load<S: Simd, const W: usize>(_: S, values: &[f64]) -> Row<S, W> {
+pub(super) fn load<S: Simd, const W: usize>(simd: S, values: &[f64]) -> Row<S, W> {
     let vectors = S::as_simd_f64s(&values[..W * S::F64_LANES]).0;
-    std::array::from_fn(|j| vectors[j])
+    each!(simd, j => vectors[j])
 }
 
 /// Writes W vectors over the first values.
@@ -79,19 +92,6 @@ pub(super) fn store<S: Simd, const W: usize>(_: S, values: &mut [f64], row: &Row
     let vectors = S::as_mut_simd_f64s(&mut values[..W * S::F64_LANES]).0;
     vectors.copy_from_slice(row);
 }
-
-/// A row by an expression for vector `j`. (A closure might not be inlined, and would then lose the machine's
-/// vectors.)
-macro_rules! each {
-    ($simd:expr, $j:ident => $value:expr) => {{
-        let mut row = [$simd.splat_f64s(0.0); W];
-        for $j in 0..W {
-            row[$j] = $value;
-        }
-        row
-    }};
-}
-pub(super) use each;
 
 /// c − a b.
 #[inline(always)]
