@@ -20,7 +20,7 @@ const BOUND: f64 = 1e6;
 
 pub(super) struct TrainStepper<'a> {
     trains: &'a Trains,
-    state: State,
+    pub state: State,
     finder: Finder,
     /// Finds what all points share.
     shared: Finder,

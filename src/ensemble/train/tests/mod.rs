@@ -1,5 +1,6 @@
 //! Trains against closed forms and published figures.
 
+mod energy;
 mod points;
 mod track;
 
