@@ -68,7 +68,7 @@ impl OutputFile {
     }
 
     /// Puts the finished file in its place: flush, fsync, rename, fsync of the folder.
-    pub fn commit(mut self) -> Result<()> {
+    pub fn commit(&mut self) -> Result<()> {
         self.writer
             .flush()
             .map_err(|e| write_error(&self.path, e))?;

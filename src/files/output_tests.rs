@@ -121,7 +121,7 @@ fn bad_targets_are_bad_input() {
 fn no_clobber_holds_until_the_commit() {
     let folder = folder();
     let path = folder.path().join("a");
-    let output = OutputFile::create(&path, false).unwrap();
+    let mut output = OutputFile::create(&path, false).unwrap();
     fs::write(&path, b"another's").unwrap();
     assert_eq!(output.commit().unwrap_err().exit_code(), 2);
     assert_eq!(fs::read(&path).unwrap(), b"another's");

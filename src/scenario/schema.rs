@@ -69,8 +69,11 @@ pub(super) fn shared() -> &'static Value {
     &SCHEMA
 }
 
-/// The tables and keys at the top of a scenario, and how the schema of each is made.
-const PARTS: [(&str, fn() -> Value); 16] = [
+/// What stands at the top of a scenario: its name, and what makes its schema.
+type Top = (&'static str, fn() -> Value);
+
+/// The tables and keys at the top of a scenario.
+const PARTS: [Top; 16] = [
     ("bridge", generate::<BridgeSpec>),
     ("contact", generate::<ContactSpec>),
     ("correlation", generate::<Vec<CorrelationSpec>>),

@@ -139,11 +139,9 @@ impl LongTable {
 
     fn finish(mut self) -> Result<()> {
         self.write_batch()?;
-        let output = self
-            .writer
-            .into_inner()
-            .map_err(|e| failed(&self.path, e))?;
-        output.commit()
+        // Not `into_inner`, which makes a text of what the system says.
+        self.writer.finish().map_err(|e| failed(&self.path, e))?;
+        self.writer.inner_mut().commit()
     }
 }
 
