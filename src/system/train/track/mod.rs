@@ -1,6 +1,9 @@
 //! The track: rail, fasteners and what carries them. All values are of the whole track: both rails, and both
 //! seats of a sleeper.
 
+mod rows;
+mod slab;
+
 /// A straight track on equally spaced fasteners.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Track {
