@@ -40,15 +40,22 @@ pub fn sheather_jones(sorted: &[(f64, f64)], effective_count: f64) -> Option<f64
         return None;
     }
     let start = first - MARGIN * (last - first);
-    let width = |mesh: usize, transform: &Transform| {
-        let powers = cosine_powers(sorted, start, mesh as f64 / length, transform);
-        smallest_width(&Series::new(&powers, effective_count), 1.0 / mesh as f64)
-    };
-    let coarse = width(COARSE_MESH, &COARSE_TRANSFORM);
-    if coarse.is_some_and(|width| width * COARSE_MESH as f64 > ENOUGH) {
-        return coarse.map(|width| width * length);
-    }
-    width(MESH, &TRANSFORM).map(|width| width * length)
+    let on = |transform: &Transform| on_mesh(sorted, effective_count, (start, length), transform);
+    let coarse = on(&COARSE_TRANSFORM);
+    let width = coarse.filter(|width| width * COARSE_MESH as f64 > ENOUGH);
+    width.or_else(|| on(&TRANSFORM)).map(|width| width * length)
+}
+
+/// The width by the mesh of a transform over an interval, in units of its length.
+fn on_mesh(
+    sorted: &[(f64, f64)],
+    effective_count: f64,
+    (start, length): (f64, f64),
+    transform: &Transform,
+) -> Option<f64> {
+    let mesh = transform.turns.len() as f64;
+    let powers = cosine_powers(sorted, start, mesh / length, transform);
+    smallest_width(&Series::new(&powers, effective_count), 1.0 / mesh)
 }
 
 /// The smallest solution from `least` on, in units of the interval.
@@ -236,4 +243,40 @@ fn root(excess: impl Fn(f64) -> f64, below: f64, above: f64) -> f64 {
         b = (middle, value);
     }
     b.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::probability::{MonteCarlo, PointRule};
+
+    #[test]
+    fn few_nodes_do_where_they_are_taken() {
+        let count = 984;
+        let mut normals = vec![0.0; count];
+        MonteCarlo::new(count, 1, 3).standard_normals(0..count, &mut normals);
+        let cases: [fn(f64) -> f64; 4] = [
+            |x| x,
+            |x| (0.3 * x).exp(),
+            |x| x + x.signum(),
+            |x| x * (1.0 - 0.05 * x.abs()),
+        ];
+        let mut taken = 0;
+        for of in cases {
+            let mut sorted: Vec<(f64, f64)> = normals
+                .iter()
+                .map(|x| (of(*x), 1.0 / count as f64))
+                .collect();
+            sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let length = sorted[count - 1].0 - sorted[0].0;
+            let over = (sorted[0].0 - 0.1 * length, 1.2 * length);
+            let on = |transform| on_mesh(&sorted, count as f64, over, transform).unwrap();
+            let (coarse, fine) = (on(&COARSE_TRANSFORM), on(&TRANSFORM));
+            if coarse * COARSE_MESH as f64 > ENOUGH {
+                assert!((coarse / fine - 1.0).abs() < 1e-3, "{coarse} {fine}");
+                taken += 1;
+            }
+        }
+        assert!(taken >= 2, "the few nodes were taken for {taken} cases");
+    }
 }
