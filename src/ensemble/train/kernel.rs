@@ -14,12 +14,11 @@
 
 use super::lanes::{Numbers, Shared, TRAIN_LANES};
 use super::meeting::Meeting;
-use super::shape::{OF_WHEEL, STEP, Shape, WEIGHT};
+use super::shape::{STEP, Shape};
 use super::state::State;
 use super::sweep::{Back, Sweep};
 use super::window::Windows;
 use crate::ensemble::Strip;
-use crate::system::train::TrainWheel;
 use pulp::{Simd, WithSimd};
 use std::ops::Range;
 
@@ -103,15 +102,7 @@ impl<N: Numbers, M: Numbers> Kernel<'_, '_, N, M> {
         let window = windows.at(n);
         let state = &mut *self.state;
         let mut sweep = Sweep::<S, W, N>::new(simd, shape, self.numbers, state);
-        let lower = self.numbers.from(shape.layout.forward);
-        let numbers = self.numbers;
-        let weight = |row: usize| {
-            let of_row = |wheel: &TrainWheel| wheel.row == Some(row);
-            let wheel = shape.wheels.iter().position(of_row)?;
-            let at = shape.layout.wheels + OF_WHEEL * wheel + WEIGHT;
-            Some(numbers.row(simd, at))
-        };
-        sweep.rows(0..shape.track.start, (lower, 0), weight);
+        sweep.cars(self.numbers);
         let lower = self.structure.from(shape.layout.forward);
         let mut sweep = Sweep::<S, W, M>::new(simd, shape, self.structure, state);
         for part in &window.track {
@@ -120,9 +111,9 @@ impl<N: Numbers, M: Numbers> Kernel<'_, '_, N, M> {
                 let own = edge.rows.start..edge.rows.end.min(rest.end);
                 rest.start = own.end;
                 let first = shape.pattern.factor.starts[own.start] as usize;
-                sweep.rows(own, (Shared(&edge.forward), first), |_| None);
+                sweep.rows(own, (Shared(&edge.forward), first));
             }
-            sweep.rows(rest, (lower, 0), |_| None);
+            sweep.rows(rest, (lower, 0));
         }
         if window.modes {
             sweep.modes(&window.track, lower);

@@ -1,25 +1,10 @@
 //! Vectors of lanes, and numbers that all lanes share or each has for itself.
 
+pub(super) use crate::ensemble::lanes::{Row, each};
 use pulp::Simd;
 
 /// Points that are stepped together: fewer than the quarter car's, since the state of a track has to stay in the cache.
 pub const TRAIN_LANES: usize = 16;
-
-/// A row of lanes in `W` vectors.
-pub(super) type Row<S, const W: usize> = [<S as Simd>::f64s; W];
-
-/// A row by an expression for vector `j`. (A closure might not be inlined, and would then lose the machine's
-/// vectors.)
-macro_rules! each {
-    ($simd:expr, $j:ident => $value:expr) => {{
-        let mut row = [$simd.splat_f64s(0.0); W];
-        for $j in 0..W {
-            row[$j] = $value;
-        }
-        row
-    }};
-}
-pub(super) use each;
 
 /// A list of numbers as the kernel loads them.
 pub(super) trait Numbers: Copy {

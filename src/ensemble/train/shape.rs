@@ -25,6 +25,8 @@ pub struct Shape {
     pub pattern: Pattern,
     pub wheels: Vec<TrainWheel>,
     pub laws: Vec<Law>,
+    /// Of each row of the cars, the number W of the wheel that is its coordinate.
+    pub weights: Vec<Option<usize>>,
     /// Rows of each car, of the track, of the deck's modes.
     pub cars: Vec<Range<usize>>,
     pub track: Range<usize>,
@@ -145,8 +147,15 @@ impl Shape {
         layout.outputs = take(outputs.numbers());
         layout.start = take(pattern.size);
         layout.size = size;
+        let mut weights = vec![None; after_cars];
+        for (index, wheel) in wheels.iter().enumerate() {
+            if let Some(row) = wheel.row {
+                weights[row] = Some(layout.wheels + OF_WHEEL * index + WEIGHT);
+            }
+        }
         Ok(Shape {
             laws,
+            weights,
             cars,
             track: after_cars..first_mode,
             modes,

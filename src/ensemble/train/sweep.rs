@@ -53,8 +53,9 @@ impl<'a, S: Simd, const W: usize, N: Numbers> Sweep<'a, S, W, N> {
 
     /// The loads of all modes. Those of a span are coupled to the same rows.
     #[inline(always)]
-    fn load_modes(&mut self, zero: Row<S, W>) {
+    fn load_modes(&mut self) {
         let (simd, modes) = (self.simd, self.shape.modes.clone());
+        let zero = [simd.splat_f64s(0.0); W];
         let (k, m) = (&self.shape.pattern.stiffness, &self.shape.pattern.mass);
         let mut row = modes.start;
         while row < modes.end {
@@ -87,28 +88,40 @@ impl<'a, S: Simd, const W: usize, N: Numbers> Sweep<'a, S, W, N> {
         }
     }
 
-    /// These rows, with −L in `lower` from the place `first` on; `weight` is what presses on a row.
+    /// The rows of the cars, by all their numbers; the weights press on the wheels.
     #[inline(always)]
-    pub fn rows<L: Numbers>(
-        &mut self,
-        rows: Range<usize>,
-        (lower, first): (L, usize),
-        weight: impl Fn(usize) -> Option<Row<S, W>>,
-    ) {
-        let (simd, factor) = (self.simd, &self.shape.pattern.factor);
-        let zero = [simd.splat_f64s(0.0); W];
-        for row in rows {
-            let pressed = match weight(row) {
-                Some(weight) => each!(simd, j => simd.neg_f64s(weight[j])),
-                None => zero,
-            };
-            let load = self.load(row, pressed);
-            // SAFETY: as above; `lower` has the places of these rows.
-            self.y[row] = unsafe {
-                let places = factor.range(row);
-                add_products(simd, load, lower, first, places, &factor.columns, self.y)
-            };
+    pub fn cars(&mut self, numbers: N) {
+        let simd = self.simd;
+        let lower = numbers.from(self.shape.layout.forward);
+        let shape = self.shape;
+        for (row, weight) in shape.weights.iter().enumerate() {
+            let mut pressed = [simd.splat_f64s(0.0); W];
+            if let Some(weight) = weight {
+                let weight: Row<S, W> = numbers.row(simd, *weight);
+                pressed = each!(simd, j => simd.neg_f64s(weight[j]));
+            }
+            self.eliminate(row, pressed, (lower, 0));
         }
+    }
+
+    /// These rows, with −L in `lower` from the place `first` on.
+    #[inline(always)]
+    pub fn rows<L: Numbers>(&mut self, rows: Range<usize>, (lower, first): (L, usize)) {
+        let zero = [self.simd.splat_f64s(0.0); W];
+        for row in rows {
+            self.eliminate(row, zero, (lower, first));
+        }
+    }
+
+    /// y of a row under its load and a sum beside it.
+    #[inline(always)]
+    fn eliminate<L: Numbers>(&mut self, row: usize, sum: Row<S, W>, (lower, first): (L, usize)) {
+        let load = self.load(row, sum);
+        let factor = &self.shape.pattern.factor;
+        let (places, columns) = (factor.range(row), &factor.columns);
+        // SAFETY: as in `load`; `lower` has the places of this row.
+        self.y[row] =
+            unsafe { add_products(self.simd, load, lower, first, places, columns, self.y) };
     }
 
     /// The modes, which reach over all of the bridge: track by track so short that the cache holds it for all modes.
@@ -118,7 +131,7 @@ impl<'a, S: Simd, const W: usize, N: Numbers> Sweep<'a, S, W, N> {
         let shape = self.shape;
         let factor = &shape.pattern.factor;
         let zero = [self.simd.splat_f64s(0.0); W];
-        self.load_modes(zero);
+        self.load_modes();
         let at = |row: usize, column: usize| {
             let range = factor.range(row);
             let columns = &factor.columns[range.clone()];

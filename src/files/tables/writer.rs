@@ -185,8 +185,8 @@ fn properties(table: &Table, more: &[String], attributes: &Attributes) -> Writer
         .iter()
         .map(|column| (column.name, column.repeats));
     for (name, repeats) in columns.chain(more.iter().map(|name| (name.as_str(), false))) {
-        // Of doubles that differ from row to row compression takes off a twentieth, and costs more than
-        // all else in writing them; nobody looks for their pages by their bounds either.
+        // Of doubles that differ from row to row compression takes off a fifteenth, at a tenth of the time that a
+        // density takes; nobody looks for their pages by their bounds either.
         let (compression, statistics) = if repeats {
             (
                 Compression::ZSTD(ZstdLevel::default()),
