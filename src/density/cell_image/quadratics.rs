@@ -11,6 +11,7 @@
 
 use super::neighbours::Neighbours;
 use nalgebra::{SMatrix, SVector};
+use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 
 /// What keeps the normal equations solvable where neighbours lie in a line.
@@ -74,8 +75,8 @@ impl Quadratics {
     pub fn coefficients(&self, responses: &[f64]) -> Vec<f64> {
         let arch = pulp::Arch::new();
         match self {
-            Quadratics::Plane(fitted) => arch.dispatch(|| fitted.coefficients(responses)),
-            Quadratics::Space(fitted) => arch.dispatch(|| fitted.coefficients(responses)),
+            Quadratics::Plane(fitted) => arch.dispatch(Coefficients { fitted, responses }),
+            Quadratics::Space(fitted) => arch.dispatch(Coefficients { fitted, responses }),
         }
     }
 
@@ -83,8 +84,16 @@ impl Quadratics {
     pub fn missed(&self, responses: &[f64], most: f64) -> f64 {
         let arch = pulp::Arch::new();
         match self {
-            Quadratics::Plane(fitted) => arch.dispatch(|| fitted.missed(responses, most)),
-            Quadratics::Space(fitted) => arch.dispatch(|| fitted.missed(responses, most)),
+            Quadratics::Plane(fitted) => arch.dispatch(Missed {
+                fitted,
+                responses,
+                most,
+            }),
+            Quadratics::Space(fitted) => arch.dispatch(Missed {
+                fitted,
+                responses,
+                most,
+            }),
         }
     }
 }
@@ -140,49 +149,6 @@ impl<const N: usize, const T: usize, const R: usize, const K: usize, const M: us
         let coefficients = std::array::from_fn(|t| sums[0][t] + sums[1][t]);
         (difference, coefficients)
     }
-
-    #[inline(always)]
-    fn coefficients(&self, responses: &[f64]) -> Vec<f64> {
-        let mut out = Vec::with_capacity(self.points.len() * R);
-        for row in 0..self.points.len() {
-            out.extend_from_slice(&self.row(responses, row).1);
-        }
-        out
-    }
-
-    #[inline(always)]
-    fn missed(&self, responses: &[f64], most: f64) -> f64 {
-        /// Points between two looks at what is missed.
-        const STRETCH: usize = 16;
-        let mut missed = [0.0; M];
-        for (row, fit) in self.points.iter().enumerate() {
-            let (difference, coefficients) = self.row(responses, row);
-            let mut wrong = [0.0; M];
-            for k in 0..K {
-                wrong[k] = -difference[k];
-            }
-            let mut at = N;
-            for i in 0..N {
-                let one = &fit.distances[i];
-                for k in 0..M {
-                    wrong[k] += coefficients[i] * one[k];
-                }
-                for other in &fit.distances[i..] {
-                    for k in 0..M {
-                        wrong[k] += coefficients[at] * (one[k] * other[k]);
-                    }
-                    at += 1;
-                }
-            }
-            for k in 0..M {
-                missed[k] += wrong[k].abs();
-            }
-            if row % STRETCH == 0 && missed.iter().sum::<f64>() > most {
-                break;
-            }
-        }
-        missed.iter().sum()
-    }
 }
 
 impl<const N: usize, const R: usize, const K: usize, const M: usize> Fit<N, R, K, M> {
@@ -225,5 +191,80 @@ impl<const N: usize, const R: usize, const K: usize, const M: usize> Fit<N, R, K
                 row[t] = (weighted[(t, k)] * unit(t)) as f32;
             }
         }
+    }
+}
+
+/// The work of [`Quadratics::coefficients`] for the machine's vector units.
+struct Coefficients<
+    'a,
+    const N: usize,
+    const T: usize,
+    const R: usize,
+    const K: usize,
+    const M: usize,
+> {
+    fitted: &'a Fitted<N, T, R, K, M>,
+    responses: &'a [f64],
+}
+
+impl<const N: usize, const T: usize, const R: usize, const K: usize, const M: usize> WithSimd
+    for Coefficients<'_, N, T, R, K, M>
+{
+    type Output = Vec<f64>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Vec<f64> {
+        let mut out = Vec::with_capacity(self.fitted.points.len() * R);
+        for row in 0..self.fitted.points.len() {
+            out.extend_from_slice(&self.fitted.row(self.responses, row).1);
+        }
+        out
+    }
+}
+
+/// The work of [`Quadratics::missed`] for the machine's vector units.
+struct Missed<'a, const N: usize, const T: usize, const R: usize, const K: usize, const M: usize> {
+    fitted: &'a Fitted<N, T, R, K, M>,
+    responses: &'a [f64],
+    most: f64,
+}
+
+impl<const N: usize, const T: usize, const R: usize, const K: usize, const M: usize> WithSimd
+    for Missed<'_, N, T, R, K, M>
+{
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> f64 {
+        /// Points between two looks at what is missed.
+        const STRETCH: usize = 16;
+        let mut missed = [0.0; M];
+        for (row, fit) in self.fitted.points.iter().enumerate() {
+            let (difference, coefficients) = self.fitted.row(self.responses, row);
+            let mut wrong = [0.0; M];
+            for k in 0..K {
+                wrong[k] = -difference[k];
+            }
+            let mut at = N;
+            for i in 0..N {
+                let one = &fit.distances[i];
+                for k in 0..M {
+                    wrong[k] += coefficients[i] * one[k];
+                }
+                for other in &fit.distances[i..] {
+                    for k in 0..M {
+                        wrong[k] += coefficients[at] * (one[k] * other[k]);
+                    }
+                    at += 1;
+                }
+            }
+            for k in 0..M {
+                missed[k] += wrong[k].abs();
+            }
+            if row % STRETCH == 0 && missed.iter().sum::<f64>() > self.most {
+                break;
+            }
+        }
+        missed.iter().sum()
     }
 }
