@@ -4,8 +4,10 @@
 //! once ([`Table`]); the writers write what stands here, and a test compares it with `schemas/`.
 //! The unit of a value differs from quantity to quantity: the file's key `units` has them all as JSON.
 
+mod long;
 mod reader;
 mod rows;
+mod runs;
 mod writer;
 
 pub use reader::{
@@ -91,7 +93,7 @@ pub struct Column {
     pub unit: Unit,
     /// What it means.
     pub meaning: &'static str,
-    /// Whether its values repeat from row to row, so that compression makes it small.
+    /// Whether its values repeat from row to row, so that runs make it small.
     repeats: bool,
 }
 
