@@ -1,5 +1,6 @@
 //! The Gaussian sum on evenly spaced nodes.
 
+use pulp::{Simd, WithSimd};
 use std::f64::consts::PI;
 
 /// Evenly spaced values y₀ + j Δ.
@@ -50,65 +51,123 @@ pub struct Curve {
     pub cumulative: Vec<f64>,
 }
 
+/// Nodes that are worked on side by side.
+const TOGETHER: usize = 8;
+
 /// Σ weight φ((y − value)/σ)/σ and its integral on the nodes.
 ///
 /// A kernel on nodes falls apart, exp(−(d + mΔ)²/2σ²) = e^{−d²/2σ²} (e^{−dΔ/σ²})^m e^{−m²Δ²/2σ²}, so
 /// that each node costs two products. The integral is the trapezoidal rule with the end correction
 /// Δ² (p′_j − p′_{j+1})/12, p′ from the same sum.
 pub fn smooth(values: impl Iterator<Item = (f64, f64)>, width: f64, nodes: Nodes) -> Curve {
-    let Nodes {
-        start,
-        spacing,
-        count,
-    } = nodes;
+    let Nodes { spacing, count, .. } = nodes;
     let reach = (Nodes::REACH * width / spacing).ceil() as usize + 1;
-    let shape: Vec<f64> = (0..=reach)
-        .map(|m| (-0.5 * (m as f64 * spacing / width).powi(2)).exp())
-        .collect();
-    let mut density = vec![0.0; count];
-    let mut moment = vec![0.0; count];
-    for (value, weight) in values {
-        let nearest = ((value - start) / spacing)
-            .round()
-            .clamp(0.0, (count - 1) as f64) as usize;
-        // In units of the width: d = (y − value)/σ at the nearest node, Δ/σ.
-        let d = (start + nearest as f64 * spacing - value) / width;
-        let step = spacing / width;
-        let peak = weight * (-0.5 * d * d).exp();
-        let ratio = (-d * step).exp();
-        let mut factor = peak;
-        let upper = (nearest + reach).min(count - 1);
-        let up = density[nearest..=upper]
-            .iter_mut()
-            .zip(&mut moment[nearest..=upper]);
-        for (m, ((p, s), shape)) in up.zip(&shape).enumerate() {
-            let kernel = factor * shape;
-            *p += kernel;
-            *s -= (d + m as f64 * step) * kernel;
-            factor *= ratio;
-        }
-        let inverse = ratio.recip();
-        factor = peak * inverse;
-        let lower = nearest.saturating_sub(reach);
-        let down = density[lower..nearest]
-            .iter_mut()
-            .zip(&mut moment[lower..nearest])
-            .rev();
-        for (m, ((p, s), shape)) in down.zip(&shape[1..]).enumerate() {
-            let kernel = factor * shape;
-            *p += kernel;
-            *s -= (d - (m + 1) as f64 * step) * kernel;
-            factor *= inverse;
-        }
-    }
+    let Sums { density, slope, .. } = pulp::Arch::new().dispatch(Summing {
+        values,
+        width,
+        nodes,
+        sums: Sums::new(reach, spacing / width, count),
+    });
     let scale = 1.0 / (width * (2.0 * PI).sqrt());
-    density.iter_mut().for_each(|p| *p *= scale);
-    moment.iter_mut().for_each(|s| *s *= scale / width);
-    let cumulative = integrate(&density, &moment, spacing);
+    let ours = |sums: Vec<f64>, scale: f64| -> Vec<f64> {
+        let sums = sums[reach..reach + count].iter();
+        sums.map(|sum| scale * sum).collect()
+    };
+    let density = ours(density, scale);
+    let cumulative = integrate(&density, &ours(slope, scale / width), spacing);
     Curve {
         nodes,
         density,
         cumulative,
+    }
+}
+
+/// Sums on the nodes and as far as a kernel reaches beyond at either side.
+struct Sums {
+    reach: usize,
+    /// mΔ/σ from one end of a kernel to the other and on to the next whole vector.
+    distance: Vec<f64>,
+    /// exp(−m²Δ²/2σ²); nothing beyond the end.
+    shape: Vec<f64>,
+    /// σ p.
+    density: Vec<f64>,
+    /// σ² p′.
+    slope: Vec<f64>,
+}
+
+impl Sums {
+    fn new(reach: usize, step: f64, count: usize) -> Self {
+        let across = (2 * reach + 1).next_multiple_of(TOGETHER);
+        let distance: Vec<f64> = (0..across)
+            .map(|k| (k as f64 - reach as f64) * step)
+            .collect();
+        let mut shape: Vec<f64> = distance.iter().map(|m| (-0.5 * m * m).exp()).collect();
+        shape[2 * reach + 1..].fill(0.0);
+        Sums {
+            reach,
+            distance,
+            shape,
+            density: vec![0.0; count + across],
+            slope: vec![0.0; count + across],
+        }
+    }
+}
+
+/// The sum of all kernels, for the machine's vector units.
+struct Summing<I> {
+    values: I,
+    width: f64,
+    nodes: Nodes,
+    sums: Sums,
+}
+
+impl<I: Iterator<Item = (f64, f64)>> WithSimd for Summing<I> {
+    type Output = Sums;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Sums {
+        let Summing {
+            values,
+            width,
+            nodes:
+                Nodes {
+                    start,
+                    spacing,
+                    count,
+                },
+            mut sums,
+        } = self;
+        // In units of the width.
+        let step = spacing / width;
+        let end = sums.reach as f64 * step;
+        for (value, weight) in values {
+            let nearest = ((value - start) / spacing)
+                .round()
+                .clamp(0.0, (count - 1) as f64) as usize;
+            let d = (start + nearest as f64 * spacing - value) / width;
+            let mut factor = weight * (d * (end - 0.5 * d)).exp();
+            let ratio = (-d * step).exp();
+            let mut powers = [1.0; TOGETHER];
+            for k in 1..TOGETHER {
+                powers[k] = powers[k - 1] * ratio;
+            }
+            let across = powers[TOGETHER - 1] * ratio;
+            let nodes = nearest..nearest + sums.shape.len();
+            let density = sums.density[nodes.clone()].as_chunks_mut::<TOGETHER>().0;
+            let slope = sums.slope[nodes].as_chunks_mut::<TOGETHER>().0;
+            let shape = sums.shape.as_chunks::<TOGETHER>().0;
+            let distance = sums.distance.as_chunks::<TOGETHER>().0;
+            for (((p, s), shape), distance) in
+                density.iter_mut().zip(slope).zip(shape).zip(distance)
+            {
+                let kernel: [f64; TOGETHER] =
+                    std::array::from_fn(|k| factor * powers[k] * shape[k]);
+                *p = std::array::from_fn(|k| p[k] + kernel[k]);
+                *s = std::array::from_fn(|k| s[k] - (d + distance[k]) * kernel[k]);
+                factor *= across;
+            }
+        }
+        sums
     }
 }
 
