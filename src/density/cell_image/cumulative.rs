@@ -26,9 +26,14 @@ impl Places {
 
     /// The first place at or above a value, or the one behind all.
     #[inline(always)]
-    fn from(&self, value: f64) -> usize {
+    pub fn from(&self, value: f64) -> usize {
         let place = ((value - self.start) * self.per_value).ceil();
         (place.max(0.0) as usize).min(self.count)
+    }
+
+    #[inline(always)]
+    pub fn value(&self, place: usize) -> f64 {
+        self.start + place as f64 * self.spacing
     }
 }
 
@@ -56,9 +61,9 @@ impl Cumulative {
         let first = self.places.from(least);
         let last = self.places.from(largest);
         let mut before = 0.0;
-        let Places { start, spacing, .. } = self.places;
+        let places = self.places;
         for (place, step) in (first..).zip(&mut self.steps[first..last.max(first)]) {
-            let now = mass * below(start + place as f64 * spacing).clamp(0.0, 1.0);
+            let now = mass * below(places.value(place)).clamp(0.0, 1.0);
             *step += now - before;
             before = now;
         }
