@@ -83,7 +83,7 @@ pub fn estimate(
 }
 
 impl Estimator<'_> {
-    /// The moments, no width yet, with the values they come from in ascending order.
+    /// The moments, no width yet, with the values they come from, in groups that ascend.
     fn moments(&self, cell: &Cell) -> (Moments, Vec<(f64, f64)>) {
         let [mean, deviation, skewness, kurtosis] = cell.sums.central();
         let mut pairs: Vec<(f64, f64)> = match &cell.samples {
@@ -98,7 +98,7 @@ impl Estimator<'_> {
             Samples::Bins(bins) => bins.nodes().collect(),
             Samples::One => vec![(mean, 1.0)],
         };
-        let quantiles = Weighted::sort(&mut pairs).quantiles(LEVELS);
+        let quantiles = Weighted::group(&mut pairs).quantiles(LEVELS);
         let moments = Moments {
             mean,
             deviation,
@@ -117,9 +117,9 @@ impl Estimator<'_> {
         cell: &Cell,
         work: impl FnOnce(&dyn Fit) -> T,
     ) -> (Moments, Option<T>) {
-        let (moments, sorted) = self.moments(cell);
+        let (moments, pairs) = self.moments(cell);
         let probability = self.source.probability();
-        let sample = Sample::of(&cell.samples, probability, &cell.sums, &moments, &sorted);
+        let sample = Sample::of(&cell.samples, probability, &cell.sums, &moments, &pairs);
         let done = sample.map(|sample| work(&*self.rule.fit(&sample)));
         (moments, done)
     }

@@ -36,7 +36,7 @@ impl Rule for Plain {
     fn fit<'a>(&'a self, sample: &'a Sample<'a>) -> Box<dyn Fit + 'a> {
         Box::new(Gaussians {
             sample,
-            width: self.0.width(&sample.spread, sample.sorted),
+            width: self.0.width(&sample.spread, sample.pairs),
             drawn_in: 0.0,
         })
     }
@@ -96,8 +96,8 @@ impl Rule for Adaptive {
     }
 
     fn fit<'a>(&'a self, sample: &'a Sample<'a>) -> Box<dyn Fit + 'a> {
-        let own = WidthRule::SheatherJones.width(&sample.spread, sample.sorted);
-        let reference = WidthRule::NormalReference.width(&sample.spread, sample.sorted);
+        let own = WidthRule::SheatherJones.width(&sample.spread, sample.pairs);
+        let reference = WidthRule::NormalReference.width(&sample.spread, sample.pairs);
         let near = ((own / reference - FAR) / (NEAR - FAR)).clamp(0.0, 1.0);
         Box::new(Gaussians {
             sample,

@@ -6,8 +6,8 @@ use super::{Bins, Curve, Moments, Nodes, PowerSums, Spread};
 /// A quantity at one time. It has spread.
 pub(super) struct Sample<'a> {
     pub values: Values<'a>,
-    /// In ascending order with their probabilities.
-    pub sorted: &'a [(f64, f64)],
+    /// With their probabilities, in groups that ascend.
+    pub pairs: &'a [(f64, f64)],
     pub least: f64,
     pub largest: f64,
     pub mean: f64,
@@ -32,7 +32,7 @@ impl<'a> Sample<'a> {
         probability: &'a [f64],
         sums: &PowerSums,
         moments: &Moments,
-        sorted: &'a [(f64, f64)],
+        pairs: &'a [(f64, f64)],
     ) -> Option<Self> {
         let values = match samples {
             Samples::Each(values) => Values::Each {
@@ -45,7 +45,7 @@ impl<'a> Sample<'a> {
         let interquartile = moments.quantiles[5] - moments.quantiles[3];
         Some(Sample {
             values,
-            sorted,
+            pairs,
             least: sums.least,
             largest: sums.largest,
             mean: moments.mean,

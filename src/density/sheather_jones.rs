@@ -31,16 +31,19 @@ const WIDEST: f64 = 0.316;
 /// Steps of the search for the smallest solution.
 const STEP: f64 = 2.0;
 
-/// σ of values in ascending order with their probabilities, between 1/2048 and 0.3 of their range, to a thousandth;
+/// σ of values with their probabilities, between 1/2048 and 0.3 of their range, to a thousandth;
 /// none where the equation has no solution there.
-pub fn sheather_jones(sorted: &[(f64, f64)], effective_count: f64) -> Option<f64> {
-    let (first, last) = (sorted.first()?.0, sorted.last()?.0);
-    let length = (1.0 + 2.0 * MARGIN) * (last - first);
+pub fn sheather_jones(pairs: &[(f64, f64)], effective_count: f64) -> Option<f64> {
+    let ends = (f64::INFINITY, f64::NEG_INFINITY);
+    let (least, largest) = pairs
+        .iter()
+        .fold(ends, |(a, b), (x, _)| (a.min(*x), b.max(*x)));
+    let length = (1.0 + 2.0 * MARGIN) * (largest - least);
     if length <= 0.0 {
         return None;
     }
-    let start = first - MARGIN * (last - first);
-    let on = |transform: &Transform| on_mesh(sorted, effective_count, (start, length), transform);
+    let start = least - MARGIN * (largest - least);
+    let on = |transform: &Transform| on_mesh(pairs, effective_count, (start, length), transform);
     let coarse = on(&COARSE_TRANSFORM);
     let width = coarse.filter(|width| width * COARSE_MESH as f64 > ENOUGH);
     width.or_else(|| on(&TRANSFORM)).map(|width| width * length)
@@ -48,13 +51,13 @@ pub fn sheather_jones(sorted: &[(f64, f64)], effective_count: f64) -> Option<f64
 
 /// The width by the mesh of a transform over an interval, in units of its length.
 fn on_mesh(
-    sorted: &[(f64, f64)],
+    pairs: &[(f64, f64)],
     effective_count: f64,
     (start, length): (f64, f64),
     transform: &Transform,
 ) -> Option<f64> {
     let mesh = transform.turns.len() as f64;
-    let powers = cosine_powers(sorted, start, mesh / length, transform);
+    let powers = cosine_powers(pairs, start, mesh / length, transform);
     smallest_width(&Series::new(&powers, effective_count), 1.0 / mesh)
 }
 
@@ -77,10 +80,10 @@ fn smallest_width(series: &Series, least: f64) -> Option<f64> {
 
 /// a_k² of the values, k = 1, 2, ..., from their shares among the mesh: the sharing's own, sinc⁴, is
 /// divided out.
-fn cosine_powers(sorted: &[(f64, f64)], start: f64, scale: f64, transform: &Transform) -> Vec<f64> {
+fn cosine_powers(pairs: &[(f64, f64)], start: f64, scale: f64, transform: &Transform) -> Vec<f64> {
     let mesh = transform.turns.len();
     let mut shares = vec![0.0; mesh];
-    for (value, p) in sorted {
+    for (value, p) in pairs {
         // Cells have their middles at j + 1/2.
         let place = ((value - start) * scale - 0.5).max(0.0);
         let node = (place as usize).min(mesh - 2);
@@ -88,7 +91,7 @@ fn cosine_powers(sorted: &[(f64, f64)], start: f64, scale: f64, transform: &Tran
         shares[node] += p - upper;
         shares[node + 1] += upper;
     }
-    let total: f64 = sorted.iter().map(|x| x.1).sum();
+    let total: f64 = pairs.iter().map(|x| x.1).sum();
     // J. Makhoul's order (IEEE Trans. Acoust. Speech Signal Process. 28 (1980) 27-34): even ones
     // ascending, then odd ones descending; their Fourier transform, turned, is the cosine transform.
     let even = shares.iter().step_by(2);

@@ -47,15 +47,15 @@ pub enum WidthRule {
 }
 
 impl WidthRule {
-    /// σ for values in ascending order with their probabilities.
-    pub fn width(self, spread: &Spread, sorted: &[(f64, f64)]) -> f64 {
+    /// σ for values with their probabilities.
+    pub fn width(self, spread: &Spread, pairs: &[(f64, f64)]) -> f64 {
         match self {
             WidthRule::Silverman => 0.9 * spread.robust() * spread.shrink(),
             WidthRule::NormalReference => 1.06 * spread.deviation * spread.shrink(),
             WidthRule::Factor(factor) => factor * spread.robust() * spread.shrink(),
             WidthRule::Fixed(width) => width,
-            WidthRule::SheatherJones => sheather_jones(sorted, spread.effective_count)
-                .unwrap_or_else(|| WidthRule::Silverman.width(spread, sorted)),
+            WidthRule::SheatherJones => sheather_jones(pairs, spread.effective_count)
+                .unwrap_or_else(|| WidthRule::Silverman.width(spread, pairs)),
         }
     }
 

@@ -169,60 +169,7 @@ impl PowerSums {
     }
 }
 
-/// Fewer values are sorted at once.
-const FEW: usize = 64;
-/// More values of one share are sorted at once.
-const LITTLE: usize = 16;
-
-fn sort_all(pairs: &mut [(f64, f64)]) {
-    pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-}
-
-/// Sorts by the share of the range first, as many shares as values, then within each share.
-fn sort_by_share(pairs: &mut Vec<(f64, f64)>) {
-    let ends = (f64::INFINITY, f64::NEG_INFINITY);
-    let (least, largest) = pairs
-        .iter()
-        .fold(ends, |(a, b), (x, _)| (a.min(*x), b.max(*x)));
-    let last = pairs.len() - 1;
-    let scale = last as f64 / (largest - least);
-    let share = |x: f64| (((x - least) * scale) as usize).min(last);
-    // The number of values before each share, then before the next.
-    let mut ends = vec![0u32; pairs.len() + 1];
-    for (x, _) in &*pairs {
-        ends[share(*x) + 1] += 1;
-    }
-    for k in 1..ends.len() {
-        ends[k] += ends[k - 1];
-    }
-    let mut sorted = vec![(0.0, 0.0); pairs.len()];
-    for pair in &*pairs {
-        let end = &mut ends[share(pair.0)];
-        sorted[*end as usize] = *pair;
-        *end += 1;
-    }
-    let mut start = 0;
-    for end in ends {
-        let share = &mut sorted[start..end as usize];
-        if share.len() > LITTLE {
-            sort_all(share);
-        }
-        start = end as usize;
-    }
-    // What is left lies a few places off.
-    for k in 1..sorted.len() {
-        let pair = sorted[k];
-        let mut at = k;
-        while at > 0 && sorted[at - 1].0 > pair.0 {
-            sorted[at] = sorted[at - 1];
-            at -= 1;
-        }
-        sorted[at] = pair;
-    }
-    *pairs = sorted;
-}
-
-/// Values in ascending order with their probabilities, for quantiles.
+/// Values with their probabilities, for quantiles.
 ///
 /// Each value stands at the middle of its own share of the probability and the quantile is linear
 /// between them (for equal probabilities Hazen's definition, (i − 1/2)/N); the extremes are the
@@ -230,22 +177,44 @@ fn sort_by_share(pairs: &mut Vec<(f64, f64)>) {
 #[derive(Debug)]
 pub struct Weighted<'a> {
     pairs: &'a mut Vec<(f64, f64)>,
+    /// The end of each group.
+    ends: Vec<u32>,
 }
 
 impl<'a> Weighted<'a> {
-    /// Sorts (value, probability) pairs.
-    pub fn sort(pairs: &'a mut Vec<(f64, f64)>) -> Self {
-        if pairs.len() < FEW || pairs.is_sorted_by(|a, b| a.0 <= b.0) {
-            sort_all(pairs);
-        } else {
-            sort_by_share(pairs);
+    /// Puts (value, probability) pairs in groups, as many as pairs, by their share of the range. Groups
+    /// ascend; within a group there is no order yet.
+    pub fn group(pairs: &'a mut Vec<(f64, f64)>) -> Self {
+        let ends = (f64::INFINITY, f64::NEG_INFINITY);
+        let (least, largest) = pairs
+            .iter()
+            .fold(ends, |(a, b), (x, _)| (a.min(*x), b.max(*x)));
+        let last = pairs.len().max(1) - 1;
+        let scale = last as f64 / (largest - least);
+        let group = |x: f64| (((x - least) * scale) as usize).min(last);
+        // The number of pairs before each group, then before the next.
+        let mut ends = vec![0u32; pairs.len() + 1];
+        for (x, _) in &*pairs {
+            ends[group(*x) + 1] += 1;
         }
-        Weighted { pairs }
+        for k in 1..ends.len() {
+            ends[k] += ends[k - 1];
+        }
+        let mut grouped = vec![(0.0, 0.0); pairs.len()];
+        for pair in &*pairs {
+            let end = &mut ends[group(pair.0)];
+            grouped[*end as usize] = *pair;
+            *end += 1;
+        }
+        ends.pop();
+        *pairs = grouped;
+        Weighted { pairs, ends }
     }
 
     /// The quantiles at ascending levels.
-    pub fn quantiles<const N: usize>(&self, levels: [f64; N]) -> [f64; N] {
+    pub fn quantiles<const N: usize>(mut self, levels: [f64; N]) -> [f64; N] {
         let total: f64 = self.pairs.iter().map(|x| x.1).sum();
+        self.sort_about(&levels.map(|level| level * total));
         let mut at = 0;
         let mut below = 0.0;
         levels.map(|level| {
@@ -264,5 +233,37 @@ impl<'a> Weighted<'a> {
             let (c0, c1) = (below - 0.5 * p0, below + 0.5 * p1);
             x0 + (x1 - x0) * ((wanted - c0) / (c1 - c0)).clamp(0.0, 1.0)
         })
+    }
+
+    /// Sorts the groups in which the probability from below reaches one of some ascending ones, and those
+    /// beside them.
+    fn sort_about(&mut self, wanted: &[f64]) {
+        let sort = |group: &mut [(f64, f64)]| group.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let mut wanted = wanted.iter().peekable();
+        let (mut start, mut before, mut below) = (0, 0..0, 0.0);
+        let mut is_beside = false;
+        for end in self.ends.iter().map(|end| *end as usize) {
+            if start == end {
+                continue;
+            }
+            let group = std::mem::replace(&mut start, end)..end;
+            below += self.pairs[group.clone()].iter().map(|x| x.1).sum::<f64>();
+            let mut is_reached = false;
+            while wanted.next_if(|wanted| **wanted <= below).is_some() {
+                is_reached = true;
+            }
+            if is_reached {
+                sort(&mut self.pairs[before]);
+            }
+            if is_reached || is_beside {
+                sort(&mut self.pairs[group.clone()]);
+            }
+            is_beside = is_reached;
+            before = group;
+        }
+        // What the last group misses by rounding is reached in it.
+        if wanted.next().is_some() {
+            sort(&mut self.pairs[before]);
+        }
     }
 }

@@ -289,7 +289,7 @@ impl<'a> Passage<'a> {
 
     fn width(&self, bins: &Bins, sums: &PowerSums, rule: WidthRule) -> f64 {
         let mut pairs: Vec<(f64, f64)> = bins.nodes().collect();
-        let [lower, upper] = Weighted::sort(&mut pairs).quantiles([0.25, 0.75]);
+        let [lower, upper] = Weighted::group(&mut pairs).quantiles([0.25, 0.75]);
         let spread = sums.spread(upper - lower, self.effective_count);
         rule.width(&spread, &pairs)
     }

@@ -316,7 +316,7 @@ impl ControlVariate {
         sums.add(&values, &self.probability);
         let probability = self.probability.iter().copied();
         let mut pairs: Vec<(f64, f64)> = values.into_iter().zip(probability).collect();
-        let [lower, upper] = Weighted::sort(&mut pairs).quantiles([0.25, 0.75]);
+        let [lower, upper] = Weighted::group(&mut pairs).quantiles([0.25, 0.75]);
         let spread = sums.spread(upper - lower, self.effective_count);
         let width = WidthRule::Silverman.width(&spread, &[]);
         let nodes = Nodes::covering(sums.least, sums.largest, width, least_nodes.max(256));

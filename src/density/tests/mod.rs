@@ -159,7 +159,7 @@ fn moments_and_quantiles_of_a_normal() {
 #[test]
 fn equal_weights_have_hazens_quantiles() {
     let mut pairs: Vec<(f64, f64)> = [4.0, 1.0, 3.0, 2.0].iter().map(|x| (*x, 0.25)).collect();
-    let quantiles = Weighted::sort(&mut pairs).quantiles([0.05, 0.125, 0.25, 0.5, 0.9]);
+    let quantiles = Weighted::group(&mut pairs).quantiles([0.05, 0.125, 0.25, 0.5, 0.9]);
     assert_eq!(quantiles, [1.0, 1.0, 1.5, 2.5, 4.0]);
 }
 
