@@ -115,8 +115,8 @@ impl<N: Numbers, M: Numbers> Kernel<'_, '_, N, M> {
             }
             sweep.rows(rest, (lower, 0));
         }
-        if window.modes {
-            sweep.modes(&window.track, lower);
+        if let Some(shares) = &window.modes {
+            sweep.modes(shares, lower);
         }
     }
 
@@ -131,7 +131,7 @@ impl<N: Numbers, M: Numbers> Kernel<'_, '_, N, M> {
         let mut back = Back::<S, W>::new(simd, shape, step, self.state);
         let none = (&(0..0), &(0..0));
         let full = (&shape.full, &shape.modes);
-        if window.modes {
+        if window.modes.is_some() {
             back.rows(shape.modes.clone(), (inverse, 0), (upper, 0), none);
         }
         for part in window.track.iter().rev() {

@@ -163,7 +163,7 @@ impl Finder {
             }
             reach.track = first..row;
         }
-        let reaches_modes = window.modes
+        let reaches_modes = window.modes.is_some()
             && !shape.modes.is_empty()
             && (!reach.track.is_empty()
                 || place.terms.iter().any(|(r, _)| shape.modes.contains(r)));

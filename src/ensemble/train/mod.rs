@@ -7,6 +7,7 @@ mod meeting;
 mod outputs;
 mod record;
 mod shape;
+mod shares;
 mod sparse;
 mod state;
 mod stepper;

@@ -2,14 +2,11 @@
 
 use super::lanes::{Numbers, Row, add_products, add_side_by_side, each};
 use super::shape::Shape;
+use super::shares::{SIDE_BY_SIDE, Share};
 use super::sparse::Rows;
 use super::state::State;
-use super::window::Part;
 use pulp::Simd;
 use std::ops::Range;
-
-/// Sums that are made side by side: they do not wait for each other.
-const SIDE_BY_SIDE: usize = 3;
 
 /// One sweep down the rows.
 pub(super) struct Sweep<'a, S: Simd, const W: usize, N> {
@@ -124,64 +121,31 @@ impl<'a, S: Simd, const W: usize, N: Numbers> Sweep<'a, S, W, N> {
             unsafe { add_products(self.simd, load, lower, first, places, columns, self.y) };
     }
 
-    /// The modes, which reach over all of the bridge: track by track so short that the cache holds it for all modes.
+    /// The modes, by what they take from the track and from each other.
     #[inline(always)]
-    pub fn modes(&mut self, track: &[Part], lower: N) {
-        const SHORT: usize = 64;
-        let shape = self.shape;
-        let factor = &shape.pattern.factor;
-        let zero = [self.simd.splat_f64s(0.0); W];
+    pub fn modes(&mut self, shares: &[Share], lower: N) {
         self.load_modes();
-        let at = |row: usize, column: usize| {
-            let range = factor.range(row);
-            let columns = &factor.columns[range.clone()];
-            // From the first row that a mode is coupled to, its row is full.
-            let full = column.saturating_sub(columns.first().map_or(0, |c| *c as usize));
-            match columns.get(full) {
-                Some(found) if *found as usize == column => range.start + full,
-                _ => range.start + columns.partition_point(|c| (*c as usize) < column),
-            }
-        };
-        for part in track {
-            for first in part.rows.clone().step_by(SHORT) {
-                let end = (first + SHORT).min(part.rows.end);
-                let mut row = shape.modes.start;
-                while row < shape.modes.end {
-                    let places: [Range<usize>; SIDE_BY_SIDE] = std::array::from_fn(|k| {
-                        let row = (row + k).min(shape.modes.end - 1);
-                        at(row, first)..at(row, end)
-                    });
-                    let is_full = |places: &Range<usize>| places.len() == end - first;
-                    let last = row + SIDE_BY_SIDE;
-                    if last <= shape.modes.end && places.iter().all(is_full) {
-                        let mut sums = [zero; SIDE_BY_SIDE];
-                        sums.copy_from_slice(&self.y[row..last]);
-                        let starts = places.map(|places| places.start);
-                        // SAFETY: full rows, each number of which belongs to one of these columns.
-                        let sums: [_; SIDE_BY_SIDE] = unsafe {
-                            add_side_by_side(self.simd, sums, lower, starts, first..end, self.y)
-                        };
-                        self.y[row..last].copy_from_slice(&sums);
-                        row = last;
-                    } else {
-                        let [places, ..] = places;
-                        // SAFETY: as above.
-                        self.y[row] = unsafe {
-                            let sum = self.y[row];
-                            add_products(self.simd, sum, lower, 0, places, &factor.columns, self.y)
-                        };
-                        row += 1;
-                    }
+        let columns = &self.shape.pattern.factor.columns;
+        for share in shares {
+            match share {
+                Share::SideBySide(row, of, starts) => {
+                    let rows = *row..row + SIDE_BY_SIDE;
+                    let mut sums = [[self.simd.splat_f64s(0.0); W]; SIDE_BY_SIDE];
+                    sums.copy_from_slice(&self.y[rows.clone()]);
+                    // SAFETY: full rows, each number of which belongs to one of these columns.
+                    let sums: [_; SIDE_BY_SIDE] = unsafe {
+                        add_side_by_side(self.simd, sums, lower, *starts, of.clone(), self.y)
+                    };
+                    self.y[rows].copy_from_slice(&sums);
+                }
+                Share::Alone(row, places) => {
+                    // SAFETY: as in `load`.
+                    self.y[*row] = unsafe {
+                        let (sum, places) = (self.y[*row], places.clone());
+                        add_products(self.simd, sum, lower, 0, places, columns, self.y)
+                    };
                 }
             }
-        }
-        for row in shape.modes.clone() {
-            let places = at(row, shape.modes.start)..factor.range(row).end;
-            // SAFETY: as above.
-            self.y[row] = unsafe {
-                let sum = self.y[row];
-                add_products(self.simd, sum, lower, 0, places, &factor.columns, self.y)
-            };
         }
     }
 }

@@ -5,6 +5,7 @@
 //! A has a factor of its own; but it differs from that of the whole in the first rows only, some metres at its left end.
 
 use super::shape::{Shape, dynamic};
+use super::shares::Share;
 use super::sparse::Factor;
 use std::ops::Range;
 
@@ -21,8 +22,8 @@ pub struct Windows {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Window {
     pub track: Vec<Part>,
-    /// The bridge's modes move.
-    pub modes: bool,
+    /// The bridge's modes move: what they take in a sweep down.
+    pub modes: Option<Vec<Share>>,
 }
 
 /// A range of rows, of which the first ones have a factor of their own.
@@ -62,11 +63,12 @@ impl Windows {
             rows: shape.track.clone(),
             edge: None,
         };
+        let track = vec![whole];
         Windows {
             of_step: vec![0; shape.crossing.steps + 1],
             windows: vec![Window {
-                track: vec![whole],
-                modes: true,
+                modes: Some(Share::of_modes(shape, &track)),
+                track,
             }],
             edges: Vec::new(),
         }
@@ -116,18 +118,16 @@ impl Windows {
             }
             let known = all.windows.last().is_some_and(|window| {
                 let same = window.track.iter().map(|part| &part.rows).eq(&ranges);
-                same && window.modes == reached
+                same && window.modes.is_some() == reached
             });
             if !known {
                 let track = ranges.into_iter().map(|rows| {
                     let edge = all.edge(shape, &rows, lower, factor, &mut work, &mut scaled);
                     Part { rows, edge }
                 });
-                let track = track.collect();
-                all.windows.push(Window {
-                    track,
-                    modes: reached,
-                });
+                let track: Vec<Part> = track.collect();
+                let modes = reached.then(|| Share::of_modes(shape, &track));
+                all.windows.push(Window { track, modes });
             }
             all.of_step.push(all.windows.len() as u32 - 1);
         }
