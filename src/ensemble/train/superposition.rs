@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 /// Points whose sums are one product.
-const LANES: usize = 64;
+const LANES: usize = 128;
 /// The largest map (numbers): 128 MiB.
 const MOST: usize = 1 << 24;
 /// A step's multiply-add of a lane beside one of the product, by time: measured.
@@ -29,16 +29,25 @@ pub struct Superposition {
     nodes: Range<usize>,
     /// Responses on a smooth track, `[time][output]`.
     smooth: Vec<f64>,
-    /// Y `[time][output][position]`.
-    map: Vec<f64>,
+    map: Vec<Felt>,
+}
+
+/// Y of some times that feel the same positions, the first ones.
+struct Felt {
+    /// Times and outputs.
+    rows: Range<usize>,
+    positions: usize,
+    /// `[row][position]`.
+    responses: Vec<f64>,
 }
 
 impl Trains {
     /// Whether superposition takes less work than stepping for so many points.
     pub fn gains_by_superposition(&self, points: usize) -> bool {
-        let rows = self.times().len() * self.outputs();
-        let nodes = self.nodes().len();
-        if !self.can_superpose() || rows * nodes > MOST {
+        let (rows, nodes) = (self.times().len() * self.outputs(), self.nodes().len());
+        // Heights are felt for half of the run, in the mean.
+        let map = rows * nodes / 2;
+        if !self.can_superpose() || map > MOST {
             return false;
         }
         let pattern = &self.shape.pattern;
@@ -46,9 +55,8 @@ impl Trains {
             + pattern.mass.columns.len()
             + 2 * pattern.factor.columns.len();
         let stepped = STEP_COST * (of_step * self.shape.crossing.steps) as f64;
-        // Heights are felt for half of the run, in the mean.
         let set_up = 0.5 * nodes as f64 * stepped;
-        set_up + ((points * rows * nodes) as f64) < points as f64 * stepped
+        set_up + ((points * map) as f64) < points as f64 * stepped
     }
 
     /// Whether a crossing is a linear map of its irregularity alone.
@@ -90,7 +98,7 @@ impl Trains {
         self.numbers[start..].fill(0.0);
         let firsts: Vec<usize> = nodes.clone().step_by(TRAIN_LANES).collect();
         let wheels = self.shape.wheels.len();
-        let blocks: Vec<Result<(usize, Vec<f64>), Divergence>> = firsts
+        let blocks: Vec<Result<Block, Divergence>> = firsts
             .par_iter()
             .map_init(
                 || TrainStepper::new(&self),
@@ -114,29 +122,61 @@ impl Trains {
                     let mut strips = Strip::cut(&mut block, lanes.len(), lanes.len());
                     stepper.run_from(felt, &points, &mut strips[0])?;
                     drop(strips);
-                    Ok((*first, block))
+                    let every = self.shape.crossing.record_every;
+                    Ok(Block {
+                        positions: first - nodes.start..lanes.end - nodes.start,
+                        first: felt.div_ceil(every) * outputs,
+                        responses: block,
+                    })
                 },
             )
             .collect();
-        let mut map = vec![0.0; rows * nodes.len()];
-        for block in blocks {
-            let (first, block) = block?;
-            let width = block.len() / rows;
-            let at = first - nodes.start;
-            for (to, from) in map
-                .chunks_exact_mut(nodes.len())
-                .zip(block.chunks_exact(width))
-            {
-                to[at..at + width].copy_from_slice(from);
-            }
-        }
+        let blocks: Vec<Block> = blocks.into_iter().collect::<Result<_, _>>()?;
         self.numbers = weighted;
         Ok(Superposition {
             trains: self,
             nodes,
             smooth,
-            map,
+            map: Felt::of(&blocks, rows),
         })
+    }
+}
+
+/// Responses to unit heights at some positions, side by side.
+struct Block {
+    positions: Range<usize>,
+    /// The first row that may differ from zero.
+    first: usize,
+    /// `[row][position]`.
+    responses: Vec<f64>,
+}
+
+impl Felt {
+    /// The whole map of so many rows.
+    fn of(blocks: &[Block], rows: usize) -> Vec<Felt> {
+        let mut starts: Vec<usize> = blocks.iter().map(|block| block.first).collect();
+        starts.extend([0, rows]);
+        starts.sort_unstable();
+        starts.dedup();
+        let group = |ends: &[usize]| {
+            let rows = ends[0]..ends[1];
+            let felt = || blocks.iter().filter(|block| block.first <= rows.start);
+            let positions = felt().map(|block| block.positions.end).max().unwrap_or(0);
+            let mut responses = vec![0.0; rows.len() * positions];
+            for block in felt() {
+                let width = block.positions.len();
+                let from = block.responses[rows.start * width..].chunks_exact(width);
+                for (to, from) in responses.chunks_exact_mut(positions).zip(from) {
+                    to[block.positions.clone()].copy_from_slice(from);
+                }
+            }
+            Felt {
+                rows,
+                positions,
+                responses,
+            }
+        };
+        starts.windows(2).map(group).collect()
     }
 }
 
@@ -181,32 +221,36 @@ impl Stepper for Product<'_> {
             nodes, smooth, map, ..
         } = self.of;
         let width = points.range.len();
-        let (rows, inner) = (smooth.len(), nodes.len());
         self.sums.clear();
         for value in smooth {
             self.sums.extend(std::iter::repeat_n(*value, width));
         }
         let heights = &points.excitation[nodes.start..];
         assert!(points.samples >= nodes.end && points.excitation.len() >= width * points.samples);
-        // SAFETY: map is [rows][inner]; heights hold, for each of the `width` points, `inner` values `samples` apart
-        // from point to point (asserted above); sums are [rows][width] and nobody else's.
-        unsafe {
-            matrixmultiply::dgemm(
-                rows,
-                inner,
-                width,
-                1.0,
-                map.as_ptr(),
-                inner as isize,
-                1,
-                heights.as_ptr(),
-                1,
-                points.samples as isize,
-                1.0,
-                self.sums.as_mut_ptr(),
-                width as isize,
-                1,
-            );
+        for felt in map {
+            let rows = felt.rows.len();
+            let sums = &mut self.sums[felt.rows.start * width..felt.rows.end * width];
+            assert!(felt.responses.len() == rows * felt.positions && felt.positions <= nodes.len());
+            // SAFETY: the responses are [rows][positions]; heights hold, for each of the `width` points, as many values
+            // `samples` apart from point to point; sums are [rows][width] and nobody else's (all asserted above).
+            unsafe {
+                matrixmultiply::dgemm(
+                    rows,
+                    felt.positions,
+                    width,
+                    1.0,
+                    felt.responses.as_ptr(),
+                    felt.positions as isize,
+                    1,
+                    heights.as_ptr(),
+                    1,
+                    points.samples as isize,
+                    1.0,
+                    sums.as_mut_ptr(),
+                    width as isize,
+                    1,
+                );
+            }
         }
         for (row, values) in self.sums.chunks_exact(width).enumerate() {
             strip.row(row).copy_from_slice(values);
