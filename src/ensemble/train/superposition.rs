@@ -17,6 +17,8 @@ use std::ops::Range;
 
 /// Points whose sums are one product.
 const LANES: usize = 128;
+/// Blocks of a thread whose responses wait for their place in the map.
+const BLOCKS: usize = 2;
 /// The largest map (numbers): 128 MiB.
 const MOST: usize = 1 << 24;
 /// A step's multiply-add of a lane beside one of the product, by time: measured.
@@ -75,8 +77,7 @@ impl Trains {
     /// # Errors
     /// A run that leaves all bounds.
     pub fn superpose(mut self) -> Result<Superposition, Divergence> {
-        let (records, outputs) = (self.times().len(), self.outputs());
-        let rows = records * outputs;
+        let rows = self.times().len() * self.outputs();
         let nodes = self.nodes();
         let mut smooth = vec![0.0; rows];
         let flat = vec![0.0; nodes.end];
@@ -96,87 +97,115 @@ impl Trains {
         }
         let start = self.shape.layout.start;
         self.numbers[start..].fill(0.0);
-        let firsts: Vec<usize> = nodes.clone().step_by(TRAIN_LANES).collect();
-        let wheels = self.shape.wheels.len();
-        let blocks: Vec<Result<Block, Divergence>> = firsts
-            .par_iter()
-            .map_init(
-                || TrainStepper::new(&self),
-                |stepper, first| {
-                    let lanes = *first..(first + TRAIN_LANES).min(nodes.end);
-                    let mut heights = vec![0.0; lanes.len() * nodes.end];
-                    for (lane, node) in lanes.clone().enumerate() {
-                        heights[lane * nodes.end + node] = 1.0;
-                    }
-                    let points = Points {
-                        excitation: &heights,
-                        samples: nodes.end,
-                        parameters: &[],
-                        range: 0..lanes.len(),
-                    };
-                    let felt = match self.start.first_felt(&lanes) {
-                        Some(_) => 0,
-                        None => self.path.first_felt(&lanes).unwrap_or(0) / wheels,
-                    };
-                    let mut block = vec![0.0; rows * lanes.len()];
-                    let mut strips = Strip::cut(&mut block, lanes.len(), lanes.len());
-                    stepper.run_from(felt, &points, &mut strips[0])?;
-                    drop(strips);
-                    let every = self.shape.crossing.record_every;
-                    Ok(Block {
-                        positions: first - nodes.start..lanes.end - nodes.start,
-                        first: felt.div_ceil(every) * outputs,
-                        responses: block,
-                    })
-                },
-            )
+        let blocks: Vec<Block> = nodes
+            .clone()
+            .step_by(TRAIN_LANES)
+            .map(|first| self.block(first..(first + TRAIN_LANES).min(nodes.end)))
             .collect();
-        let blocks: Vec<Block> = blocks.into_iter().collect::<Result<_, _>>()?;
+        let mut map = Felt::nothing(&blocks, nodes.start, rows);
+        for some in blocks.chunks(BLOCKS * rayon::current_num_threads()) {
+            let found: Vec<Result<Vec<f64>, Divergence>> = some
+                .par_iter()
+                .map_init(
+                    || TrainStepper::new(&self),
+                    |stepper, block| block.responses(stepper, (rows, nodes.end)),
+                )
+                .collect();
+            for (block, responses) in some.iter().zip(found) {
+                let responses = responses?;
+                map.iter_mut()
+                    .for_each(|felt| felt.put(block, nodes.start, &responses));
+            }
+        }
         self.numbers = weighted;
         Ok(Superposition {
             trains: self,
             nodes,
             smooth,
-            map: Felt::of(&blocks, rows),
+            map,
         })
+    }
+
+    /// Some positions of the grid, side by side.
+    fn block(&self, positions: Range<usize>) -> Block {
+        let step = match self.start.first_felt(&positions) {
+            Some(_) => 0,
+            None => self.path.first_felt(&positions).unwrap_or(0) / self.shape.wheels.len(),
+        };
+        Block {
+            first: step.div_ceil(self.shape.crossing.record_every) * self.outputs(),
+            step,
+            positions,
+        }
     }
 }
 
-/// Responses to unit heights at some positions, side by side.
+/// Positions of the grid whose unit heights are stepped together.
 struct Block {
     positions: Range<usize>,
-    /// The first row that may differ from zero.
+    /// The first step at which a wheel feels one of them, and the first row.
+    step: usize,
     first: usize,
-    /// `[row][position]`.
-    responses: Vec<f64>,
+}
+
+impl Block {
+    /// `[row][position]`, on a grid of so many samples.
+    fn responses(
+        &self,
+        stepper: &mut TrainStepper<'_>,
+        (rows, samples): (usize, usize),
+    ) -> Result<Vec<f64>, Divergence> {
+        let width = self.positions.len();
+        let mut heights = vec![0.0; width * samples];
+        for (lane, position) in self.positions.clone().enumerate() {
+            heights[lane * samples + position] = 1.0;
+        }
+        let points = Points {
+            excitation: &heights,
+            samples,
+            parameters: &[],
+            range: 0..width,
+        };
+        let mut responses = vec![0.0; rows * width];
+        let mut strips = Strip::cut(&mut responses, width, width);
+        stepper.run_from(self.step, &points, &mut strips[0])?;
+        drop(strips);
+        Ok(responses)
+    }
 }
 
 impl Felt {
-    /// The whole map of so many rows.
-    fn of(blocks: &[Block], rows: usize) -> Vec<Felt> {
-        let mut starts: Vec<usize> = blocks.iter().map(|block| block.first).collect();
-        starts.extend([0, rows]);
-        starts.sort_unstable();
-        starts.dedup();
+    /// The whole map of so many rows, all zeros.
+    fn nothing(blocks: &[Block], start: usize, rows: usize) -> Vec<Felt> {
+        let mut firsts: Vec<usize> = blocks.iter().map(|block| block.first).collect();
+        firsts.extend([0, rows]);
+        firsts.sort_unstable();
+        firsts.dedup();
         let group = |ends: &[usize]| {
-            let rows = ends[0]..ends[1];
-            let felt = || blocks.iter().filter(|block| block.first <= rows.start);
-            let positions = felt().map(|block| block.positions.end).max().unwrap_or(0);
-            let mut responses = vec![0.0; rows.len() * positions];
-            for block in felt() {
-                let width = block.positions.len();
-                let from = block.responses[rows.start * width..].chunks_exact(width);
-                for (to, from) in responses.chunks_exact_mut(positions).zip(from) {
-                    to[block.positions.clone()].copy_from_slice(from);
-                }
-            }
+            let felt = blocks.iter().filter(|block| block.first <= ends[0]);
+            let end = felt.map(|block| block.positions.end).max();
+            let positions = end.unwrap_or(start) - start;
             Felt {
-                rows,
+                rows: ends[0]..ends[1],
                 positions,
-                responses,
+                responses: vec![0.0; (ends[1] - ends[0]) * positions],
             }
         };
-        starts.windows(2).map(group).collect()
+        firsts.windows(2).map(group).collect()
+    }
+
+    /// Takes its rows from a block's `[row][position]`.
+    fn put(&mut self, block: &Block, start: usize, responses: &[f64]) {
+        if block.first > self.rows.start {
+            return;
+        }
+        let width = block.positions.len();
+        let to = block.positions.start - start..block.positions.end - start;
+        let rows = &responses[self.rows.start * width..self.rows.end * width];
+        let own = self.responses.chunks_exact_mut(self.positions);
+        for (own, row) in own.zip(rows.chunks_exact(width)) {
+            own[to.clone()].copy_from_slice(row);
+        }
     }
 }
 
@@ -221,18 +250,17 @@ impl Stepper for Product<'_> {
             nodes, smooth, map, ..
         } = self.of;
         let width = points.range.len();
-        self.sums.clear();
-        for value in smooth {
-            self.sums.extend(std::iter::repeat_n(*value, width));
-        }
         let heights = &points.excitation[nodes.start..];
         assert!(points.samples >= nodes.end && points.excitation.len() >= width * points.samples);
         for felt in map {
+            self.sums.clear();
+            for value in &smooth[felt.rows.clone()] {
+                self.sums.extend(std::iter::repeat_n(*value, width));
+            }
             let rows = felt.rows.len();
-            let sums = &mut self.sums[felt.rows.start * width..felt.rows.end * width];
             assert!(felt.responses.len() == rows * felt.positions && felt.positions <= nodes.len());
             // SAFETY: the responses are [rows][positions]; heights hold, for each of the `width` points, as many values
-            // `samples` apart from point to point; sums are [rows][width] and nobody else's (all asserted above).
+            // `samples` apart from point to point (asserted above); sums are [rows][width] and nobody else's.
             unsafe {
                 matrixmultiply::dgemm(
                     rows,
@@ -246,14 +274,14 @@ impl Stepper for Product<'_> {
                     1,
                     points.samples as isize,
                     1.0,
-                    sums.as_mut_ptr(),
+                    self.sums.as_mut_ptr(),
                     width as isize,
                     1,
                 );
             }
-        }
-        for (row, values) in self.sums.chunks_exact(width).enumerate() {
-            strip.row(row).copy_from_slice(values);
+            for (row, values) in felt.rows.clone().zip(self.sums.chunks_exact(width)) {
+                strip.row(row).copy_from_slice(values);
+            }
         }
         Ok(())
     }
