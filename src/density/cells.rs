@@ -3,13 +3,14 @@
 //! as memory holds.
 
 use super::each;
-use super::estimate::{EXACT_POINTS, Options};
-use super::rule::Rule;
+use super::rule::{Rule, Samples};
 use super::{Bins, PowerSums};
 use crate::Result;
 use crate::response::{Block, Responses};
 use rayon::prelude::*;
 
+/// Up to so many points the sums run over the points themselves.
+pub const EXACT_POINTS: usize = 8192;
 /// Samples or bins that are held at a time (bytes): more cells take further passes.
 const MEMORY: usize = 192 << 20;
 /// Bins in a smoothing width, and at first, when a small distance of the quartiles may still narrow it.
@@ -32,12 +33,22 @@ pub(super) struct Cell {
     pub samples: Samples,
 }
 
-#[derive(Debug, Clone)]
-pub(super) enum Samples {
-    Each(Vec<f64>),
-    Bins(Bins),
-    /// No spread.
-    One,
+/// On which nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Grid {
+    /// Each time has its own.
+    Own,
+    /// One for all times of a quantity, of at most 8192 nodes: a width that they do not resolve is
+    /// widened to twice their spacing.
+    Common,
+}
+
+/// What is wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// The least number of nodes at a time.
+    pub points_per_time: usize,
+    pub grid: Grid,
 }
 
 /// Collects cells and makes densities of them.

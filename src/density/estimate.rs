@@ -1,37 +1,17 @@
 //! Densities and moments of all quantities at all times, from a stream of blocks.
 
-use super::cells::{Cell, Estimator, Samples};
+use super::cells::{Cell, Estimator, Grid, Options};
 use super::each;
-use super::rule::{Extent, Fit, Sample};
+use super::rule::{Extent, Fit, Sample, Samples};
 use super::statistics::{LEVELS, Moments, Weighted};
 use super::{Curve, Nodes, Smoother};
 use crate::response::{Responses, effective_count};
 use crate::{Result, interrupt};
 
-/// Up to so many points the sums run over the points themselves.
-pub const EXACT_POINTS: usize = 8192;
 /// Cells whose curves are held at a time.
 const TOGETHER: usize = 64;
 /// The most nodes of a common grid.
 pub(super) const COMMON_NODES: f64 = 8192.0;
-
-/// On which nodes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Grid {
-    /// Each time has its own.
-    Own,
-    /// One for all times of a quantity, of at most 8192 nodes: a width that they do not resolve is
-    /// widened to twice their spacing.
-    Common,
-}
-
-/// What is wanted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Options {
-    /// The least number of nodes at a time.
-    pub points_per_time: usize,
-    pub grid: Grid,
-}
 
 /// The result for one quantity and time.
 #[derive(Debug, Clone, PartialEq)]

@@ -48,8 +48,9 @@ mod statistics;
 
 pub use automatic::{Choice, choose};
 pub use bins::Bins;
+pub use cells::{EXACT_POINTS, Grid, Options};
 pub use control_variate::{ControlVariate, ControlVariateError, Controlled, Exceedance};
-pub use estimate::{EXACT_POINTS, Grid, Options, TimeDensity, estimate};
+pub use estimate::{TimeDensity, estimate};
 pub use kernel::{Curve, Nodes, smooth};
 pub use known::KnownPoints;
 pub use pseudo_excitation::pseudo_excitation;

@@ -13,7 +13,8 @@
 //! Source: Z. C. Zhang, J. H. Lin, Y. H. Zhang, Y. Zhao, W. P. Howson, F. W. Williams, Non-stationary
 //! random vibration analysis of three-dimensional train-bridge systems, Veh. Syst. Dyn. 48 (2010) 457-480.
 
-use super::estimate::{COMMON_NODES, Grid, TimeDensity};
+use super::cells::Grid;
+use super::estimate::{COMMON_NODES, TimeDensity};
 use super::statistics::{LEVELS, Moments};
 use super::{Curve, Nodes};
 use crate::response::Responses;

@@ -1,7 +1,15 @@
 //! What every rule of smoothing does: fit a sample, say how far its density reaches, put it on nodes.
 
-use super::cells::Samples;
 use super::{Bins, Curve, Moments, Nodes, PowerSums, Spread};
+
+/// The responses of a quantity at a time as they were collected.
+#[derive(Debug, Clone)]
+pub(super) enum Samples {
+    Each(Vec<f64>),
+    Bins(Bins),
+    /// No spread.
+    One,
+}
 
 /// A quantity at one time. It has spread.
 pub(super) struct Sample<'a> {

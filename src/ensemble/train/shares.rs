@@ -1,7 +1,6 @@
 //! What the rows of the modes take from the rows above them in a sweep down: they reach over all of the bridge.
 
 use super::shape::Shape;
-use super::window::Part;
 use std::ops::Range;
 
 /// Sums that are made side by side: they do not wait for each other.
@@ -19,14 +18,14 @@ pub enum Share {
 }
 
 impl Share {
-    /// All shares of the modes where these parts of the track move, in the order in which they are taken: first of the
+    /// All shares of the modes where these rows of the track move, in the order in which they are taken: first of the
     /// track, stretch by stretch, then mode by mode of the modes before.
-    pub fn of_modes(shape: &Shape, track: &[Part]) -> Vec<Share> {
+    pub fn of_modes(shape: &Shape, track: &[Range<usize>]) -> Vec<Share> {
         let modes = shape.modes.clone();
         let mut all = Vec::new();
-        for part in track {
-            for first in part.rows.clone().step_by(SHORT) {
-                let columns = first..(first + SHORT).min(part.rows.end);
+        for rows in track {
+            for first in rows.clone().step_by(SHORT) {
+                let columns = first..(first + SHORT).min(rows.end);
                 let mut row = modes.start;
                 while row < modes.end {
                     let group: [usize; SIDE_BY_SIDE] = std::array::from_fn(|k| row + k);

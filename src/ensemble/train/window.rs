@@ -63,12 +63,11 @@ impl Windows {
             rows: shape.track.clone(),
             edge: None,
         };
-        let track = vec![whole];
         Windows {
             of_step: vec![0; shape.crossing.steps + 1],
             windows: vec![Window {
-                modes: Some(Share::of_modes(shape, &track)),
-                track,
+                modes: Some(Share::of_modes(shape, std::slice::from_ref(&shape.track))),
+                track: vec![whole],
             }],
             edges: Vec::new(),
         }
@@ -121,12 +120,12 @@ impl Windows {
                 same && window.modes.is_some() == reached
             });
             if !known {
+                let modes = reached.then(|| Share::of_modes(shape, &ranges));
                 let track = ranges.into_iter().map(|rows| {
                     let edge = all.edge(shape, &rows, lower, factor, &mut work, &mut scaled);
                     Part { rows, edge }
                 });
-                let track: Vec<Part> = track.collect();
-                let modes = reached.then(|| Share::of_modes(shape, &track));
+                let track = track.collect();
                 all.windows.push(Window { track, modes });
             }
             all.of_step.push(all.windows.len() as u32 - 1);
