@@ -224,7 +224,7 @@ impl LineSpec {
         let needed = |to: f64| ((to - start) / spacing - 1e-9).ceil() + 1.0;
         if end < reach.last {
             let expected = format!(
-                "at least {}, to {:?} m, where the first wheel ends: it would run off the track",
+                "at least {}, to {:.6} m, where the first wheel ends: it would run off the track",
                 needed(reach.last),
                 reach.last
             );
