@@ -53,13 +53,13 @@ pub(super) fn run(context: &Context, args: &cli::Check) -> Result<()> {
     Ok(())
 }
 
-/// Points, irregularity or excitation; returns the number of points.
+/// Points, irregularity or excitation; returns the number of points, and of positions of each.
 fn points(
     context: &Context,
     scenario: &Scenario,
     random: RandomParameters,
     write: &mut impl FnMut(String),
-) -> Result<Option<usize>> {
+) -> Result<Option<(usize, usize)>> {
     let spec = scenario.points()?;
     if !["irregularity", "excitation", "oscillator"]
         .iter()
@@ -83,7 +83,7 @@ fn points(
         "  points file: about {}",
         size(count * (8 * numbers + 8))
     ));
-    Ok(Some(count))
+    Ok(Some((count, grid.count)))
 }
 
 /// Irregularity or excitation, where there is one.
@@ -178,7 +178,7 @@ fn describe(random: &RandomParameters, write: &mut impl FnMut(String)) {
 /// Frequencies, steps and sizes of the simulation.
 fn simulation(
     scenario: &Scenario,
-    points: Option<usize>,
+    points: Option<(usize, usize)>,
     write: &mut impl FnMut(String),
 ) -> Result<()> {
     let spec = scenario.simulation()?;
@@ -240,7 +240,7 @@ fn recording(
     spec: &SimulationSpec,
     times: usize,
     (steps, per_second): (usize, f64),
-    points: Option<usize>,
+    points: Option<(usize, usize)>,
     write: &mut impl FnMut(String),
 ) {
     let quantities = spec.record.len() + spec.filter.len();
@@ -248,24 +248,26 @@ fn recording(
         Precision::F64 => 8,
         Precision::F32 => 4,
     };
-    let (band, block) = band_layout(times, quantities, bytes);
+    let positions = points.map_or(0, |(_, positions)| positions);
+    let (band, block) = band_layout(times, quantities, positions);
     write(format!(
         "recording: {quantities} quantities at {times} times, blocks of {block} points, bands of {band}"
     ));
     if !spec.index.is_empty() {
         write(format!("  and {} values a point", spec.index.len()));
     }
-    if let Some(points) = points {
+    if let Some((points, _)) = points {
         let steps = points as f64 * (steps + 1) as f64;
         let seconds = steps / per_second;
-        let held = points.next_multiple_of(LANES).min(band) * times * quantities * 8;
+        let held = points.next_multiple_of(LANES);
+        let held = held.min(band) * times * quantities + held.min(block) * positions;
         write(format!(
             "  file: about {}",
             size(points * times * quantities * bytes)
         ));
         write(format!(
             "  work: {steps:.3e} point-steps, some {seconds:.2} s of one core; memory: some {}",
-            size(3 * held)
+            size(2 * held * size_of::<f64>())
         ));
     }
 }

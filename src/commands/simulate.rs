@@ -59,7 +59,6 @@ pub(super) fn run(context: &Context, args: &cli::Simulate) -> Result<()> {
         reader,
         component,
         range,
-        bytes: header.precision.bytes(),
     };
     run.execute(writer)
 }
@@ -170,7 +169,6 @@ struct Run<'a> {
     /// The column of irregularity or excitation, where the system needs one.
     component: Option<usize>,
     range: Range<u32>,
-    bytes: usize,
 }
 
 /// A band under way.
@@ -194,13 +192,18 @@ impl Run<'_> {
 
     /// Reads on one thread, steps on all, writes on another.
     fn execute(&self, writer: RecordingWriter) -> Result<()> {
-        let (band, block) = band_layout(self.times.len(), self.system.outputs(), self.bytes);
+        let (band, block) = band_layout(
+            self.times.len(),
+            self.system.outputs(),
+            self.reader.header().positions,
+        );
         let bar = self.context.progress("simulate", self.range.len() as u64);
         std::thread::scope(|scope| {
-            let (read, batches) = sync_channel::<Result<ReadBatch>>(1);
+            // Each side waits for the other to take what it has: two batches and two bands are in memory.
+            let (read, batches) = sync_channel::<Result<ReadBatch>>(0);
             let (used, spare_batches) = sync_channel::<ReadBatch>(2);
             scope.spawn(move || self.read(block, &read, &spare_batches));
-            let (full, bands) = sync_channel::<Filled>(1);
+            let (full, bands) = sync_channel::<Filled>(0);
             let (emptied, spare_bands) = sync_channel::<Vec<f64>>(2);
             let written = scope.spawn(move || self.write(writer, block, bands, &emptied));
             let mut stepped: Result<()> = Ok(());
