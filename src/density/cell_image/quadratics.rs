@@ -194,7 +194,8 @@ impl<const N: usize, const R: usize, const K: usize, const M: usize> Fit<N, R, K
     }
 }
 
-/// The work of [`Quadratics::coefficients`] for the machine's vector units.
+/// The work of [`Quadratics::coefficients`] for the machine's vector units, which a closure would not get: it is called,
+/// not made a part of their code.
 struct Coefficients<
     'a,
     const N: usize,

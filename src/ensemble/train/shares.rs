@@ -39,8 +39,11 @@ impl Share {
                         all.push(Share::SideBySide(row, columns.clone(), starts));
                         row += SIDE_BY_SIDE;
                     } else {
+                        // Modes of other spans take nothing from this stretch.
                         let [places, ..] = places;
-                        all.push(Share::Alone(row, places));
+                        if !places.is_empty() {
+                            all.push(Share::Alone(row, places));
+                        }
                         row += 1;
                     }
                 }
